@@ -1,0 +1,4 @@
+// The one place that includes GLM.
+#pragma once
+
+#include <glm/glm.hpp>

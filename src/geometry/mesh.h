@@ -1,0 +1,38 @@
+// A triangle mesh in millimetres.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/glm.h"
+
+namespace rangepose {
+
+struct Mesh {
+  std::string name;                   ///< for messages and results, e.g. the file's stem
+  std::vector<glm::vec3> vertices;    ///< [mm]
+  std::vector<glm::uvec3> triangles;  ///< indices into vertices
+};
+
+struct Sphere {
+  glm::dvec3 center_mm{0.0};
+  double radius_mm = 0.0;
+};
+
+/// Throws Error, naming the mesh and the element, when there is no triangle with an area, an index is out
+/// of range, or a vertex is not finite.
+void checkMesh(const Mesh& mesh);
+
+/// Removes triangles without area and vertices that no triangle uses.
+Mesh cleaned(const Mesh& mesh);
+
+/// A sphere around all vertices: the smallest one about the centre of the bounding box.
+Sphere boundingSphere(const Mesh& mesh);
+
+/// The largest distance between two vertices [mm] (BOP's "diameter").
+double diameter(const Mesh& mesh);
+
+/// Length of the diagonal of the axis-parallel bounding box [mm] (the paper's error unit).
+double boundingBoxDiagonal(const Mesh& mesh);
+
+}  // namespace rangepose

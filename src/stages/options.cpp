@@ -1,0 +1,53 @@
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "stages/scene_channels.h"
+#include "stages/search.h"
+
+namespace rangepose {
+
+void ChannelOptions::check() const {
+  RP_CHECK(edge_fraction > 0.0f && edge_fraction < 1.0f, "edge_fraction must lie in (0, 1)");
+  RP_CHECK(image_width_px >= 8 && image_width_px <= 256, "image_width_px must lie in 8..256");
+  RP_CHECK(edt_passes >= 1 && edt_passes <= 255, "edt_passes must lie in 1..255");
+}
+
+void SimplexOptions::check() const {
+  RP_CHECK(step_px > 0.0f, "simplex step_px must be positive");
+  RP_CHECK(spread >= 0.0f && spread < 2.0f, "simplex spread must lie in [0, 2)");
+  RP_CHECK(max_iterations >= 1, "simplex max_iterations must be at least 1");
+}
+
+void ErrorOptions::check() const {
+  RP_CHECK(lambda >= 0.0f && std::isfinite(lambda), "lambda must be finite and not negative");
+  RP_CHECK(image_width_px >= 8, "image_width_px must be at least 8");
+  RP_CHECK(range_limit_px > 0.0f, "range_limit_px must be positive");
+}
+
+float areaFactor(AreaFactor form, float area_px, float max_area_px) {
+  const float ratio = max_area_px / std::max(area_px, 1.0f);
+  switch (form) {
+    case AreaFactor::kNone:
+      return 1.0f;
+    case AreaFactor::kIntended:
+      return ratio;
+    case AreaFactor::kRoot:
+      return std::sqrt(ratio);
+    case AreaFactor::kAsPrinted:
+      return 1.0f / ratio;
+  }
+  return 1.0f;
+}
+
+glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px) {
+  const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
+  const float size = static_cast<float>(object.size);
+  // Window pixel of the anchor: u + margin + x must be the window's centre pixel, margin + size / 2.
+  return {0.5f * size - reference.anchor_px.x,
+          0.5f * size - reference.anchor_px.y,
+          seed_range_px - (reference.anchor_px.z - size)};
+}
+
+}  // namespace rangepose

@@ -1,0 +1,86 @@
+// All stages on one path (host, glsl, cuda), behind one interface.
+//
+// Two ways to call them: one stage at a time with images in host memory (tests, `rangepose compare`), or chained with
+// the images kept where the path keeps them (`prepare`, `search`: the pipeline).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stages/reference.h"
+#include "stages/scene_channels.h"
+#include "stages/search.h"
+#include "stages/surface.h"
+
+namespace rangepose {
+
+/// What a path has done on its device so far: proof for tests that the device did the work.
+struct DeviceWork {
+  std::int64_t draws = 0;     ///< GL draw calls
+  std::int64_t launches = 0;  ///< CUDA kernels
+};
+
+/// Scene channels where the path keeps them.
+class ResidentScene {
+ public:
+  virtual ~ResidentScene() = default;
+  virtual const OrthoCamera& camera() const = 0;
+  /// A copy in host memory.
+  virtual SceneChannels download() const = 0;
+};
+
+class StageSet {
+ public:
+  virtual ~StageSet() = default;
+  virtual std::string name() const = 0;
+  virtual DeviceWork work() const { return {}; }
+
+  // One stage at a time; contracts in channels_host.h, resample_host.h, surface.h.
+  virtual Image<float> resample(const DepthImage& image,
+                                const Image<std::uint8_t>& keep,
+                                const OrthoCamera& camera) = 0;
+  virtual Image<float> median(const Image<float>& range) = 0;
+  virtual Image<float> edges(const Image<float>& range_px, float threshold_px) = 0;
+  virtual Image<EdtTexel> distanceTexels(const Image<float>& range_px,
+                                         const Image<float>& edges,
+                                         int passes) = 0;
+  virtual Image<float> distance(const Image<float>& range_px,
+                                const Image<float>& edges,
+                                int passes) = 0;
+  virtual Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) = 0;
+  virtual std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
+                                             const SceneChannels& window,
+                                             const std::vector<glm::vec3>& translations_px,
+                                             const ErrorOptions& options) = 0;
+  /// One step of many simplexes; values[i] belongs to states[i].candidate.
+  virtual std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
+                                                 const std::vector<float>& values,
+                                                 const SimplexOptions& options) = 0;
+  virtual Image<SurfaceTexel> renderSurface(const Mesh& mesh,
+                                            const Camera& camera,
+                                            const Pose& camera_from_object,
+                                            const SurfaceWindow& window) = 0;
+
+  // Chained. `region` limits the depth pixels that are read; an empty box means all.
+  virtual std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
+                                                 const Image<std::uint8_t>& keep,
+                                                 const OrthoCamera& camera,
+                                                 const PixelBox& region,
+                                                 const ChannelOptions& options) = 0;
+  virtual std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) = 0;
+  virtual Image<std::int32_t> patches(const ResidentScene& scene) = 0;
+  /// Windows come from `prepare` or `upload` of the same path. One hypothesis a view and window, ordered by
+  /// window, then view; seed_range_px[w] is the range at the centre of window w.
+  virtual std::vector<Hypothesis> search(const ReferenceObject& object,
+                                         const std::vector<const ResidentScene*>& windows,
+                                         const std::vector<float>& seed_range_px,
+                                         const SearchOptions& options) = 0;
+};
+
+/// The host path. Keeps a packed copy of the views of each object that it has searched; objects must outlive
+/// it and not move.
+std::unique_ptr<StageSet> makeHostStages();
+
+}  // namespace rangepose
