@@ -50,10 +50,6 @@ struct ReferenceObject {
   float maxArea() const;
 };
 
-struct ReferenceDatabase {
-  std::vector<ReferenceObject> objects;
-};
-
 /// Number of tile columns of an atlas of `views` tiles: the smallest square that holds them.
 int atlasColumns(int views);
 

@@ -10,33 +10,36 @@
 namespace rangepose::host {
 
 /// The views of an object, packed for the inner loop: planes of floats instead of texels, rows cut to where
-/// the object is and padded to whole vectors.
+/// the object is and padded to whole vectors with pixels that weigh nothing.
 class PackedViews {
  public:
-  explicit PackedViews(const ReferenceObject& object);
+  static constexpr int kLanes = 8;
 
+  /// A run of pixels of one row of a tile.
   struct Row {
-    int v = 0;           ///< row in the tile
-    int u = 0;           ///< first column in the tile
-    int offset = 0;      ///< of the first pixel in the planes
-    int count = 0;       ///< pixels, a multiple of kLanes
+    int u = 0;       ///< first column in the tile
+    int v = 0;       ///< row in the tile
+    int offset = 0;  ///< of the first pixel in the planes
+    int count = 0;   ///< pixels, a multiple of kLanes
   };
   struct View {
     int first_row = 0;
     int row_count = 0;
-    float cover_count = 0.0f;   ///< sum of f
-    float range_weight = 0.0f;  ///< sum of c
-    float area_factor = 1.0f;   ///< unused until a search sets its form
+    float cover_count = 0.0f;   ///< sum of f (Eq. 4): does not depend on the translation
+    float range_weight = 0.0f;  ///< sum of c (Eq. 6)
   };
-  static constexpr int kLanes = 8;
 
-  const std::vector<View>& views() const { return views_; }
-  const std::vector<Row>& rows() const { return rows_; }
+  explicit PackedViews(const ReferenceObject& object);
+
+  const View& view(int index) const { return views_[static_cast<std::size_t>(index)]; }
+  const Row* rows(const View& view) const { return rows_.data() + view.first_row; }
   const float* distance() const { return distance_.data(); }
   const float* range() const { return range_.data(); }
   const float* cosine() const { return cosine_.data(); }
 
  private:
+  void pack(const ReferenceObject& object, int index);
+
   std::vector<View> views_;
   std::vector<Row> rows_;
   std::vector<float> distance_;
@@ -44,7 +47,8 @@ class PackedViews {
   std::vector<float> cosine_;
 };
 
-/// The sums of Eq. 2 of every view at its translation (one per view) in one window.
+/// The sums of Eq. 2 of every view at its translation (one per view) in one window. The order of the sums is
+/// fixed: eight partial sums over the columns of each row, added up at the end.
 std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
                                    const PackedViews& packed,
                                    const SceneChannels& window,

@@ -36,6 +36,8 @@ class StageSet {
   virtual ~StageSet() = default;
   virtual std::string name() const = 0;
   virtual DeviceWork work() const { return {}; }
+  /// Whether several threads may call it at the same time (a GL context belongs to one thread).
+  virtual bool concurrent() const { return false; }
 
   // One stage at a time; contracts in channels_host.h, resample_host.h, surface.h.
   virtual Image<float> resample(const DepthImage& image,

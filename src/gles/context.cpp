@@ -1,0 +1,276 @@
+#include "gles/context.h"
+
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "core/error.h"
+#include "gles/handle.h"
+
+namespace rangepose::gles {
+namespace {
+
+constexpr const char* kInstall =
+    "; install an EGL driver, e.g. apt-get install libegl1 libgles2 libgl1-mesa-dri";
+
+struct GlExtension {
+  const char* name;
+  bool required;
+};
+constexpr GlExtension kUsedExtensions[] = {{"GL_EXT_color_buffer_float", true},
+                                           {"GL_KHR_debug", false},
+                                           {"GL_EXT_gpu_shader5", false}};
+
+/// What the debug callback leaves for checkGl.
+struct DebugLog {
+  std::string first_error;
+};
+
+void GL_APIENTRY keepFirstError(GLenum,
+                                GLenum type,
+                                GLuint,
+                                GLenum,
+                                GLsizei,
+                                const GLchar* message,
+                                const void* user) {
+  if (type != GL_DEBUG_TYPE_ERROR_KHR) return;
+  auto* log = static_cast<DebugLog*>(const_cast<void*>(user));
+  if (log->first_error.empty()) log->first_error = message;
+}
+
+std::string glText(GLenum name) {
+  const GLubyte* text = glGetString(name);
+  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
+}
+
+/// Renders one value into a texture of the format and reads it back.
+bool rendersFloats(GLenum format) {
+  constexpr float kValue = 1234.5678f;  // not representable in 16 bits
+  GLuint name = 0;
+  glGenTextures(1, &name);
+  const TextureHandle texture(name);
+  glBindTexture(GL_TEXTURE_2D, texture.id());
+  glTexStorage2D(GL_TEXTURE_2D, 1, format, 2, 2);
+  glGenFramebuffers(1, &name);
+  const FramebufferHandle framebuffer(name);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+  glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+  bool works = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
+  if (works) {
+    const float color[] = {kValue, 0.0f, 0.0f, 0.0f};
+    std::array<float, 4> read{};
+    glClearBufferfv(GL_COLOR, 0, color);
+    glReadPixels(0, 0, 1, 1, GL_RGBA, GL_FLOAT, read.data());
+    works = glGetError() == GL_NO_ERROR && read[0] == kValue;
+  }
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  while (glGetError() != GL_NO_ERROR) continue;
+  return works;
+}
+
+std::string oneLine(std::string text) {
+  for (char& c : text) {
+    if (c == '\n' || c == '\r') c = ' ';
+  }
+  while (!text.empty() && text.back() == ' ') text.pop_back();
+  return text;
+}
+
+const char* glErrorName(GLenum error) {
+  switch (error) {
+    case GL_INVALID_ENUM:
+      return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+      return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+      return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+      return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+      return "GL_OUT_OF_MEMORY";
+    default:
+      return "unknown GL error";
+  }
+}
+
+}  // namespace
+
+struct Context::State {
+  State(const DisplaySource& source, const ContextOptions& options);
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State();
+  EGLConfig chooseConfig() const;
+  void create(bool debug);
+  void describe();
+  void listenToDebug();
+  void requireFloatTargets() const;
+  void destroy() noexcept;
+
+  Display display;
+  EGLContext context = EGL_NO_CONTEXT;
+  EGLSurface surface = EGL_NO_SURFACE;
+  ContextInfo info;
+  DebugLog log;
+};
+
+Context::State::State(const DisplaySource& source, const ContextOptions& options) : display(source) {
+  info.platform = source.name;
+  try {
+    create(options.debug);
+    describe();
+    requireFloatTargets();
+    listenToDebug();
+  } catch (...) {
+    destroy();
+    throw;
+  }
+}
+
+Context::State::~State() { destroy(); }
+
+void Context::State::destroy() noexcept {
+  if (context != EGL_NO_CONTEXT) {
+    if (eglGetCurrentContext() == context) {
+      eglMakeCurrent(display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
+    eglDestroyContext(display.get(), context);
+    context = EGL_NO_CONTEXT;
+  }
+  if (surface != EGL_NO_SURFACE) {
+    eglDestroySurface(display.get(), surface);
+    surface = EGL_NO_SURFACE;
+  }
+}
+
+EGLConfig Context::State::chooseConfig() const {
+  const EGLint with_pbuffer[] = {EGL_SURFACE_TYPE,
+                                 EGL_PBUFFER_BIT,
+                                 EGL_RENDERABLE_TYPE,
+                                 EGL_OPENGL_ES3_BIT,
+                                 EGL_NONE};
+  const EGLint any[] = {EGL_SURFACE_TYPE,
+                        EGL_DONT_CARE,
+                        EGL_RENDERABLE_TYPE,
+                        EGL_OPENGL_ES3_BIT,
+                        EGL_NONE};
+  EGLConfig config = nullptr;
+  EGLint count = 0;
+  if (eglChooseConfig(display.get(), with_pbuffer, &config, 1, &count) == EGL_TRUE && count > 0) {
+    return config;
+  }
+  if (eglChooseConfig(display.get(), any, &config, 1, &count) == EGL_TRUE && count > 0) {
+    return config;
+  }
+  throw Unavailable(info.platform + ": no configuration for OpenGL ES 3");
+}
+
+void Context::State::create(bool debug) {
+  if (eglBindAPI(EGL_OPENGL_ES_API) != EGL_TRUE) {
+    throw Unavailable(info.platform + ": no OpenGL ES");
+  }
+  EGLConfig config = chooseConfig();
+  for (const EGLint minor : {2, 1}) {
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 3,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 minor,
+                                 debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
+                                 EGL_TRUE,
+                                 EGL_NONE};
+    context = eglCreateContext(display.get(), config, EGL_NO_CONTEXT, attributes);
+    if (context != EGL_NO_CONTEXT) break;
+  }
+  if (context == EGL_NO_CONTEXT) {
+    throw Unavailable(info.platform + ": no OpenGL ES 3.1 (" + eglErrorName(eglGetError()) + ")");
+  }
+  if (!display.has("EGL_KHR_surfaceless_context")) {
+    const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
+    surface = eglCreatePbufferSurface(display.get(), config, size);
+  }
+  if (eglMakeCurrent(display.get(), surface, surface, context) != EGL_TRUE) {
+    throw Unavailable(info.platform + ": context cannot be made current (" +
+                      eglErrorName(eglGetError()) + ")");
+  }
+}
+
+void Context::State::describe() {
+  info.vendor = glText(GL_VENDOR);
+  info.renderer = glText(GL_RENDERER);
+  info.version = glText(GL_VERSION);
+  info.glsl_version = glText(GL_SHADING_LANGUAGE_VERSION);
+  for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"}) {
+    info.software = info.software || info.renderer.find(name) != std::string::npos;
+  }
+  const std::string all = glText(GL_EXTENSIONS);
+  for (const GlExtension& extension : kUsedExtensions) {
+    const bool found = hasWord(all.c_str(), extension.name);
+    (found ? info.extensions : info.missing).emplace_back(extension.name);
+    if (found && std::strcmp(extension.name, "GL_EXT_gpu_shader5") == 0) info.precise = true;
+  }
+  glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.max_texture_size);
+  glGetIntegerv(GL_MAX_DRAW_BUFFERS, &info.max_draw_buffers);
+}
+
+void Context::State::requireFloatTargets() const {
+  if (!rendersFloats(GL_RGBA32F) || !rendersFloats(GL_R32F)) {
+    throw Unavailable(info.platform + " (" + info.renderer +
+                      "): cannot render to 32-bit float textures (GL_EXT_color_buffer_float)");
+  }
+}
+
+void Context::State::listenToDebug() {
+  if (!hasWord(glText(GL_EXTENSIONS).c_str(), "GL_KHR_debug")) return;
+  const auto set_callback = reinterpret_cast<PFNGLDEBUGMESSAGECALLBACKKHRPROC>(
+      eglGetProcAddress("glDebugMessageCallbackKHR"));
+  if (set_callback == nullptr) return;
+  set_callback(keepFirstError, &log);
+  glEnable(GL_DEBUG_OUTPUT_KHR);
+  glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS_KHR);
+  while (glGetError() != GL_NO_ERROR) continue;
+}
+
+Context::Context(const ContextOptions& options) {
+  std::string reasons;
+  for (const DisplaySource& source : displaySources(options.cuda_device)) {
+    try {
+      state_ = std::make_unique<State>(source, options);
+      return;
+    } catch (const Unavailable& error) {
+      reasons += (reasons.empty() ? "" : "; ") + std::string(error.what());
+    }
+  }
+  throw Unavailable("no headless OpenGL ES 3.1 with float targets here: " + reasons + kInstall);
+}
+
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+Context::~Context() = default;
+
+void Context::makeCurrent() {
+  if (eglGetCurrentContext() == state_->context) return;
+  const EGLSurface surface = state_->surface;
+  if (eglMakeCurrent(state_->display.get(), surface, surface, state_->context) != EGL_TRUE) {
+    throw Error("EGL context cannot be made current on this thread (" + eglErrorName(eglGetError()) +
+                "); release() it on the thread that has it");
+  }
+}
+
+void Context::release() {
+  eglMakeCurrent(state_->display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+const ContextInfo& Context::info() const { return state_->info; }
+
+void Context::checkGl(const std::string& where) {
+  const GLenum error = glGetError();
+  std::string& message = state_->log.first_error;
+  if (error == GL_NO_ERROR && message.empty()) return;
+  while (glGetError() != GL_NO_ERROR) continue;
+  std::string text = "GL error at " + where + ": " + glErrorName(error);
+  if (error == GL_NO_ERROR) text = "GL error at " + where;
+  if (!message.empty()) text += ": " + oneLine(std::exchange(message, {}));
+  throw Error(text);
+}
+
+}  // namespace rangepose::gles

@@ -1,0 +1,14 @@
+// How noisy a depth image is.
+#pragma once
+
+#include <cstdint>
+
+#include "core/camera.h"
+
+namespace rangepose {
+
+/// Standard deviation of the depth noise [mm] over the pixels of the mask: from second differences along rows,
+/// which do not see a plane of any slope; the median leaves edges out. 0 for fewer than 100 triples.
+double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& mask);
+
+}  // namespace rangepose

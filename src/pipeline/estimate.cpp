@@ -1,0 +1,251 @@
+#include "pipeline/estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "pipeline/depth_noise.h"
+#include "pipeline/refine.h"
+#include "pipeline/scene_window.h"
+
+namespace rangepose {
+namespace {
+
+/// A scene image has at most this many pixels along a side; larger scenes are looked at more coarsely to find
+/// starts, never for the search itself.
+constexpr int kMaxScenePx = 1024;
+
+Image<float> masked(const DepthImage& depth, const Image<std::uint8_t>& mask) {
+  Image<float> result(mask.width(), mask.height(), 0.0f);
+  std::transform(mask.begin(), mask.end(), depth.depth_mm.begin(), result.begin(),
+                 [](std::uint8_t kept, float mm) { return kept != 0 ? mm : 0.0f; });
+  return result;
+}
+
+double largestDiameter(const ReferenceDatabase& database) {
+  double largest = 0.0;
+  for (const ReferenceObject& object : database.objects) largest = std::max(largest, object.diameter_mm);
+  return largest;
+}
+
+/// The windows around the starts of one object, and what they were made of.
+struct Windows {
+  std::vector<std::unique_ptr<ResidentScene>> scenes;
+  std::vector<OrthoCamera> cameras;
+  std::vector<float> seed_range_px;
+};
+
+class Estimator {
+ public:
+  Estimator(const DepthImage& depth,
+            const ReferenceDatabase& database,
+            const EstimateOptions& options,
+            StageSet& stages,
+            Estimate& result)
+      : depth_(depth), database_(database), options_(options), stages_(stages), result_(result) {}
+
+  /// Sect. 5 to 7 on what is left of the foreground.
+  std::vector<Candidate> onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
+    const Image<float> foreground_mm = masked(depth_, foreground);
+    std::vector<Candidate> candidates;
+    for (std::size_t i = 0; i < database_.objects.size(); ++i) {
+      const ReferenceObject& object = database_.objects[i];
+      ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
+      const std::vector<Seed> seeds = findStarts(object, foreground, object_trace);
+      const Windows windows = cutWindows(object, foreground, seeds, object_trace);
+      const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
+      const ScopedTimer timer(result_.times, "select");
+      const std::vector<Candidate> own = bestCandidates(
+          object, static_cast<int>(i), hypotheses, windows.cameras, options_.kept_per_start);
+      candidates.insert(candidates.end(), own.begin(), own.end());
+    }
+    const RefineScene scene{depth_, foreground_mm, result_.noise_mm};
+    {
+      const ScopedTimer timer(result_.times, "coarse icp");
+      refineCoarsely(candidates, database_, scene);
+      candidates = bestDistinct(std::move(candidates), database_, options_.verified);
+    }
+    const ScopedTimer timer(result_.times, "fine icp and check");
+    refineFinely(candidates, database_, scene, stages_);
+    return bestDistinct(std::move(candidates), database_, options_.verified);
+  }
+
+ private:
+  std::vector<Seed> findStarts(const ReferenceObject& object,
+                               const Image<std::uint8_t>& foreground,
+                               ObjectTrace* trace) {
+    const ScopedTimer timer(result_.times, "scene and starts");
+    const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
+    if (camera.width == 0) return {};
+    // Twice the passes of a reference, as the paper's 15 at 128 px for 7 at 64 px.
+    ChannelOptions channel_options = channelOptionsOf(object);
+    channel_options.edt_passes = 2 * object.edt_passes + 1;
+    const std::unique_ptr<ResidentScene> scene =
+        stages_.prepare(depth_, foreground, camera, {}, channel_options);
+    const SceneChannels channels = scene->download();
+    const Image<std::int32_t> labels = stages_.patches(*scene);
+    std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
+    if (trace != nullptr) {
+      *trace = {stages_.resample(depth_, foreground, camera), channels, labels, seeds, {}, {}};
+    }
+    for (Seed& seed : seeds) {
+      // From here on a seed is a point of the camera frame.
+      const glm::dvec3 point = camera.camera_from_ortho *
+                               camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px);
+      seed.x_px = static_cast<float>(point.x);
+      seed.y_px = static_cast<float>(point.y);
+      seed.range_px = static_cast<float>(point.z);
+    }
+    return seeds;
+  }
+
+  SeedOptions seedOptions(const ReferenceObject& object, const OrthoCamera& camera) const {
+    double area = 0.0;
+    for (const ReferenceView& view : object.views) area += view.area_px;
+    area /= static_cast<double>(object.views.size());
+    const double scale = object.pixel_mm / camera.pixel_mm;
+    SeedOptions seed_options;
+    seed_options.count = options_.starts;
+    seed_options.min_patch_px = static_cast<int>(0.08 * area * scale * scale);
+    return seed_options;
+  }
+
+  Windows cutWindows(const ReferenceObject& object,
+                     const Image<std::uint8_t>& foreground,
+                     const std::vector<Seed>& seeds,
+                     ObjectTrace* trace) {
+    const ScopedTimer timer(result_.times, "windows");
+    Windows windows;
+    const int width = kWindowScale * object.size;
+    for (const Seed& seed : seeds) {
+      const glm::dvec3 point(seed.x_px, seed.y_px, seed.range_px);
+      const OrthoCamera camera = windowCamera(depth_.camera, point, width, object.pixel_mm);
+      const PixelBox region = windowRegion(depth_.camera, point, width, object.pixel_mm);
+      windows.scenes.push_back(
+          stages_.prepare(depth_, foreground, camera, region, channelOptionsOf(object)));
+      windows.cameras.push_back(camera);
+      const glm::dvec3 in_window = camera.camera_from_ortho.inverse() * point;
+      windows.seed_range_px.push_back(static_cast<float>(in_window.z / object.pixel_mm));
+      if (trace != nullptr) trace->windows.push_back(windows.scenes.back()->download());
+    }
+    return windows;
+  }
+
+  std::vector<Hypothesis> search(const ReferenceObject& object, const Windows& windows, ObjectTrace* trace) {
+    const ScopedTimer timer(result_.times, "rough search");
+    SearchOptions search_options = options_.search;
+    search_options.error.image_width_px = object.size;
+    std::vector<const ResidentScene*> scenes;
+    for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
+    std::vector<Hypothesis> hypotheses =
+        stages_.search(object, scenes, windows.seed_range_px, search_options);
+    if (trace != nullptr) trace->hypotheses = hypotheses;
+    return hypotheses;
+  }
+
+  const DepthImage& depth_;
+  const ReferenceDatabase& database_;
+  const EstimateOptions& options_;
+  StageSet& stages_;
+  Estimate& result_;
+};
+
+/// Takes the pixels that a found pose explains out of the foreground.
+void removeExplained(const PoseEstimate& found,
+                     const ReferenceObject& object,
+                     const DepthImage& depth,
+                     double noise_mm,
+                     StageSet& stages,
+                     Image<std::uint8_t>& foreground) {
+  const int all = std::max(depth.camera.width, depth.camera.height);
+  const SurfaceWindow window =
+      windowAround(depth.camera, found.pose * object.center_mm, object.radius_mm, all);
+  const Image<SurfaceTexel> surface = stages.renderSurface(object.mesh, depth.camera, found.pose, window);
+  const double tolerance = 2.0 * toleranceFor(object, noise_mm);
+  for (int y = 0; y < surface.height(); ++y) {
+    for (int x = 0; x < surface.width(); ++x) {
+      const double model = static_cast<double>(surface.at(x, y).w);
+      const double seen = static_cast<double>(depth.depth_mm.at(window.x0 + x, window.y0 + y));
+      if (model > 0.0 && std::abs(model - seen) < tolerance) foreground.at(window.x0 + x, window.y0 + y) = 0;
+    }
+  }
+}
+
+/// A line for each object whose size in the image smells of a wrong unit.
+std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDatabase& database) {
+  std::vector<float> depths;
+  std::copy_if(depth.depth_mm.begin(), depth.depth_mm.end(), std::back_inserter(depths),
+               [](float mm) { return mm > 0.0f; });
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const double spacing = depth.camera.pixelSpacingMm(static_cast<double>(*middle));
+  const double image_mm = spacing * std::max(depth.camera.width, depth.camera.height);
+  std::vector<std::string> warnings;
+  for (const ReferenceObject& object : database.objects) {
+    const double pixels = object.diameter_mm / spacing;
+    if (pixels >= 6.0 && object.diameter_mm <= 2.0 * image_mm) continue;
+    warnings.push_back("object " + object.mesh.name + " is " +
+                       std::to_string(std::lround(object.diameter_mm)) + " mm wide and the image " +
+                       std::to_string(std::lround(image_mm)) +
+                       " mm: check --unit of `rangepose build`, depth_scale and the unit of the cloud");
+  }
+  return warnings;
+}
+
+}  // namespace
+
+void EstimateOptions::check() const {
+  RP_CHECK(starts >= 1 && starts <= 1000, "starts must lie in 1..1000");
+  RP_CHECK(kept_per_start >= 1, "kept_per_start must be at least 1");
+  RP_CHECK(verified >= 1, "verified must be at least 1");
+  RP_CHECK(max_poses >= 1, "max_poses must be at least 1");
+  search.simplex.check();
+  search.error.check();
+}
+
+Estimate estimatePoses(const DepthImage& depth,
+                       const std::optional<BinBox>& bin,
+                       const ReferenceDatabase& database,
+                       const EstimateOptions& options,
+                       StageSet& stages,
+                       EstimateTrace* trace) {
+  options.check();
+  depth.camera.check();
+  RP_CHECK(!database.objects.empty(), "the database holds no object");
+  RP_CHECK(depth.depth_mm.width() == depth.camera.width && depth.depth_mm.height() == depth.camera.height,
+           "depth image and camera differ in size");
+  if (std::none_of(depth.depth_mm.begin(), depth.depth_mm.end(), [](float mm) { return mm > 0.0f; })) {
+    throw Error("the depth image has no measured pixel; check the file and its depth_scale");
+  }
+  Estimate result;
+  result.warnings = unitWarnings(depth, database);
+  Image<std::uint8_t> foreground;
+  {
+    const ScopedTimer timer(result.times, "foreground");
+    const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
+    ForegroundOptions foreground_options;
+    foreground_options.part_mm = largestDiameter(database);
+    foreground_options.tolerance_mm = std::max(1.5, 0.02 * foreground_options.part_mm);
+    result.background = findBackground(depth, foreground_options);
+    foreground = foregroundMask(depth, result.background, bin, foreground_options);
+    result.noise_mm = estimateDepthNoise(depth, foreground);
+  }
+  if (trace != nullptr) trace->foreground = foreground;
+  Estimator estimator(depth, database, options, stages, result);
+  while (static_cast<int>(result.poses.size()) < options.max_poses) {
+    const std::vector<Candidate> ranked =
+        estimator.onePass(foreground, result.poses.empty() ? trace : nullptr);
+    if (ranked.empty() || ranked.front().check.score < options.min_score) break;
+    const Candidate& best = ranked.front();
+    result.poses.push_back({best.object, best.rough, best.pose, best.rough_error, best.view, best.check});
+    if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
+    removeExplained(result.poses.back(), database.objects[static_cast<std::size_t>(best.object)], depth,
+                    result.noise_mm, stages, foreground);
+  }
+  std::stable_sort(result.poses.begin(), result.poses.end(), [](const PoseEstimate& a, const PoseEstimate& b) {
+    return a.check.score > b.check.score;
+  });
+  return result;
+}
+
+}  // namespace rangepose

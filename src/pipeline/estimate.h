@@ -1,0 +1,69 @@
+// From one depth image to poses: the whole method, one step a line in estimate.cpp.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/timings.h"
+#include "database/reference_database.h"
+#include "pipeline/foreground.h"
+#include "pipeline/seeds.h"
+#include "stages/check_host.h"
+#include "stages/icp_host.h"
+#include "stages/stage_set.h"
+
+namespace rangepose {
+
+struct EstimateOptions {
+  int starts = 3;            ///< start points (N_init, paper Sect. 6.1)
+  int kept_per_start = 24;   ///< hypotheses of a start that are refined with their view's own points
+  int verified = 6;          ///< refined hypotheses that are rendered, refined again and checked
+  double min_score = 0.5;    ///< poses below are not reported
+  int max_poses = 1;         ///< poses wanted; more than one: what is explained is taken out, then again
+  SearchOptions search;
+  void check() const;        ///< throws Error naming the bad field
+};
+
+struct PoseEstimate {
+  int object = 0;            ///< index into the database
+  Pose rough;                ///< camera_from_object of the winning hypothesis
+  Pose pose;                 ///< camera_from_object, refined
+  float rough_error = 0.0f;  ///< Eq. 1
+  int view = 0;
+  CheckResult check;         ///< check.score is the confidence, 0..1
+};
+
+/// Pictures of what happened to one object; for dumps and comparisons.
+struct ObjectTrace {
+  Image<float> raw_range_px;            ///< before the median
+  SceneChannels scene;
+  Image<std::int32_t> labels;
+  std::vector<Seed> seeds;
+  std::vector<SceneChannels> windows;
+  std::vector<Hypothesis> hypotheses;   ///< of all windows and views
+};
+
+struct EstimateTrace {
+  Image<std::uint8_t> foreground;
+  std::vector<ObjectTrace> objects;     ///< one for each object of the database; first pass only
+};
+
+struct Estimate {
+  std::vector<PoseEstimate> poses;      ///< best first; empty is a valid answer
+  StageTimes times;
+  double noise_mm = 0.0;                ///< estimated depth noise of the image [mm]
+  std::vector<BackgroundPlane> background;
+  std::vector<std::string> warnings;    ///< one line each
+};
+
+/// Throws Error when the image has no measured pixel. `trace`, if not null, is filled.
+Estimate estimatePoses(const DepthImage& depth,
+                       const std::optional<BinBox>& bin,
+                       const ReferenceDatabase& database,
+                       const EstimateOptions& options,
+                       StageSet& stages,
+                       EstimateTrace* trace = nullptr);
+
+}  // namespace rangepose

@@ -1,0 +1,152 @@
+#include "pipeline/refine.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/parallel.h"
+#include "pipeline/scene_window.h"
+
+namespace rangepose {
+namespace {
+
+constexpr int kCoarsePoints = 220;
+constexpr int kFinePoints = 900;
+constexpr int kRenderPx = 112;
+constexpr int kFineRounds = 2;
+
+/// Mean distance of the object's extreme points in two poses, as a share of its diameter.
+double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
+  double sum = 0.0;
+  for (int corner = 0; corner < 6; ++corner) {
+    glm::dvec3 point = object.center_mm;
+    point[corner / 2] += (corner % 2 == 0 ? 0.6 : -0.6) * object.radius_mm;
+    sum += glm::distance(a * point, b * point);
+  }
+  return sum / 6.0 / object.diameter_mm;
+}
+
+CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
+  CheckOptions options;
+  options.tolerance_mm = toleranceFor(object, noise_mm);
+  return options;
+}
+
+IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iterations) {
+  IcpOptions options;
+  options.iterations = iterations;
+  options.last_reach_mm = last_reach_mm;
+  options.first_reach_mm = std::max(first_reach_mm, last_reach_mm);
+  return options;
+}
+
+void refineOne(Candidate& candidate,
+               const ReferenceObject& object,
+               const RefineScene& scene,
+               StageSet& stages) {
+  const Camera& camera = scene.depth.camera;
+  const double tolerance = toleranceFor(object, scene.noise_mm);
+  const auto render = [&](SurfaceWindow& window) {
+    window = windowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+    return stages.renderSurface(object.mesh, camera, candidate.pose, window);
+  };
+  SurfaceWindow window;
+  for (int round = 0; round < kFineRounds; ++round) {
+    const Image<SurfaceTexel> surface = render(window);
+    const std::vector<SurfacePoint> points =
+        pointsOfSurface(surface, camera, window, candidate.pose, kFinePoints);
+    const IcpOptions options = icpOptions((round == 0 ? 3.0 : 1.5) * tolerance, tolerance, 6);
+    candidate.pose = host::icp(points, camera, scene.foreground_mm, candidate.pose, object.center_mm,
+                               object.radius_mm, options)
+                         .camera_from_object;
+  }
+  const Image<SurfaceTexel> surface = render(window);
+  candidate.check = host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
+}
+
+}  // namespace
+
+double toleranceFor(const ReferenceObject& object, double noise_mm) {
+  return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
+}
+
+std::vector<Candidate> bestCandidates(const ReferenceObject& object,
+                                      int object_index,
+                                      const std::vector<Hypothesis>& hypotheses,
+                                      const std::vector<OrthoCamera>& cameras,
+                                      int count) {
+  constexpr double kSame = 0.04;
+  std::vector<Candidate> kept;
+  for (std::size_t w = 0; w < cameras.size(); ++w) {
+    std::vector<Hypothesis> own;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (hypothesis.window == static_cast<int>(w) && hypothesis.error < kWorstError) own.push_back(hypothesis);
+    }
+    std::stable_sort(own.begin(), own.end(), [](const Hypothesis& a, const Hypothesis& b) {
+      return a.error < b.error;
+    });
+    const std::size_t first = kept.size();
+    for (const Hypothesis& hypothesis : own) {
+      if (kept.size() - first >= static_cast<std::size_t>(count)) break;
+      const Pose pose = poseOf(hypothesis, object, cameras[w]);
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+        return distanceBetween(object, other.rough, pose) < kSame;
+      });
+      if (!known) kept.push_back({object_index, hypothesis.view, hypothesis.error, pose, pose, {}});
+    }
+  }
+  return kept;
+}
+
+void refineCoarsely(std::vector<Candidate>& candidates,
+                    const ReferenceDatabase& database,
+                    const RefineScene& scene) {
+  parallelFor(static_cast<int>(candidates.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
+      const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+      const double tolerance = toleranceFor(object, scene.noise_mm);
+      const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, kCoarsePoints);
+      const IcpOptions options = icpOptions(0.12 * object.diameter_mm, 1.5 * tolerance, 12);
+      candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.rough,
+                                 object.center_mm, object.radius_mm, options)
+                           .camera_from_object;
+      candidate.check = host::checkPoints(points, candidate.pose, scene.depth,
+                                          checkOptionsFor(object, scene.noise_mm));
+    }
+  });
+}
+
+std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
+                                    const ReferenceDatabase& database,
+                                    int count) {
+  constexpr double kSame = 0.03;
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.check.score > b.check.score;
+  });
+  std::vector<Candidate> best;
+  for (const Candidate& candidate : candidates) {
+    if (static_cast<int>(best.size()) >= count) break;
+    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+    const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
+      return other.object == candidate.object && distanceBetween(object, other.pose, candidate.pose) < kSame;
+    });
+    if (!known) best.push_back(candidate);
+  }
+  return best;
+}
+
+void refineFinely(std::vector<Candidate>& candidates,
+                  const ReferenceDatabase& database,
+                  const RefineScene& scene,
+                  StageSet& stages) {
+  const int count = static_cast<int>(candidates.size());
+  const int grain = stages.concurrent() ? 1 : std::max(count, 1);
+  parallelFor(count, grain, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
+      refineOne(candidate, database.objects[static_cast<std::size_t>(candidate.object)], scene, stages);
+    }
+  });
+}
+
+}  // namespace rangepose

@@ -1,0 +1,50 @@
+// From the hypotheses of the rough search to checked poses (paper Sect. 7).
+#pragma once
+
+#include <vector>
+
+#include "pipeline/estimate.h"
+
+namespace rangepose {
+
+/// What refinement needs to know of a scene.
+struct RefineScene {
+  const DepthImage& depth;           ///< as measured: for the check
+  const Image<float>& foreground_mm; ///< without background: for the alignment
+  double noise_mm;                   ///< of the depth [mm]
+};
+
+/// A rough pose and what became of it.
+struct Candidate {
+  int object = 0;
+  int view = 0;
+  float rough_error = 0.0f;
+  Pose rough;
+  Pose pose;
+  CheckResult check;
+};
+
+/// The `count` best hypotheses of each window that differ from each other, as poses. `cameras` are those of
+/// the windows.
+std::vector<Candidate> bestCandidates(const ReferenceObject& object,
+                                      int object_index,
+                                      const std::vector<Hypothesis>& hypotheses,
+                                      const std::vector<OrthoCamera>& cameras,
+                                      int count);
+
+/// Aligns each candidate with the points of its own view and judges it by them.
+void refineCoarsely(std::vector<Candidate>& candidates, const ReferenceDatabase& database, const RefineScene& scene);
+
+/// The `count` best candidates that differ from each other, best first.
+std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates, const ReferenceDatabase& database, int count);
+
+/// Renders each candidate at the sensor's resolution, aligns the visible part, and checks the result.
+void refineFinely(std::vector<Candidate>& candidates,
+                  const ReferenceDatabase& database,
+                  const RefineScene& scene,
+                  StageSet& stages);
+
+/// Surfaces of an object closer than this count as the same [mm].
+double toleranceFor(const ReferenceObject& object, double noise_mm);
+
+}  // namespace rangepose

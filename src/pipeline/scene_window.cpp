@@ -1,0 +1,72 @@
+#include "pipeline/scene_window.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "stages/surface.h"
+
+namespace rangepose {
+
+OrthoCamera sceneCamera(const DepthImage& image,
+                        const Image<std::uint8_t>& mask,
+                        double pixel_mm,
+                        int max_px) {
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(std::numeric_limits<double>::lowest());
+  bool any = false;
+  for (int v = 0; v < mask.height(); ++v) {
+    for (int u = 0; u < mask.width(); ++u) {
+      if (mask.at(u, v) == 0) continue;
+      const glm::dvec2 point(image.camera.unproject(u, v, image.depth_mm.at(u, v)));
+      low = glm::min(low, point);
+      high = glm::max(high, point);
+      any = true;
+    }
+  }
+  OrthoCamera camera;
+  if (!any) return camera;
+  constexpr int kBorderPx = 2;
+  const glm::dvec2 extent = high - low;
+  const double usable = max_px - 2.0 * kBorderPx - 1.0;
+  camera.pixel_mm = std::max(pixel_mm, std::max(extent.x, extent.y) / usable);
+  camera.width = static_cast<int>(std::ceil(extent.x / camera.pixel_mm)) + 1 + 2 * kBorderPx;
+  camera.height = static_cast<int>(std::ceil(extent.y / camera.pixel_mm)) + 1 + 2 * kBorderPx;
+  camera.camera_from_ortho.translation_mm = glm::dvec3(0.5 * (low + high), 0.0);
+  return camera;
+}
+
+OrthoCamera windowCamera(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm) {
+  OrthoCamera camera;
+  camera.width = width_px;
+  camera.height = width_px;
+  camera.pixel_mm = pixel_mm;
+  const glm::dvec3 z = sensor.viewingRay(point_mm);
+  const glm::dvec3 x = glm::normalize(glm::dvec3(1, 0, 0) - z.x * z);
+  camera.camera_from_ortho.rotation = glm::dmat3(x, glm::cross(z, x), z);
+  if (sensor.orthographic) {
+    camera.camera_from_ortho.translation_mm = glm::dvec3(point_mm.x, point_mm.y, 0.0);
+  }
+  return camera;
+}
+
+PixelBox windowRegion(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm) {
+  const double reach = 0.5 * std::numbers::sqrt2 * width_px * pixel_mm;
+  const SurfaceWindow window =
+      windowAround(sensor, point_mm, reach, std::max(sensor.width, sensor.height));
+  // Too near for a sphere of that size: read the whole image.
+  if (window.width == 0) return {0, 0, sensor.width, sensor.height};
+  return {window.x0, window.y0, window.x0 + window.width, window.y0 + window.height};
+}
+
+Pose poseOf(const Hypothesis& hypothesis, const ReferenceObject& object, const OrthoCamera& window) {
+  const ReferenceView& view = object.views[static_cast<std::size_t>(hypothesis.view)];
+  const glm::dvec3 center_mm = window.pixel_mm * glm::dvec3(hypothesis.translation_px);
+  Pose pose;
+  pose.rotation = window.camera_from_ortho.rotation * view.rotation;
+  pose.translation_mm = window.camera_from_ortho * center_mm - pose.rotation * object.center_mm;
+  return pose;
+}
+
+}  // namespace rangepose

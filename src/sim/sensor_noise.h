@@ -1,0 +1,43 @@
+// What a structured-light sensor makes of a surface: holes, noise and steps.
+#pragma once
+
+#include "core/camera.h"
+#include "sim/random.h"
+#include "stages/surface.h"
+
+namespace rangepose {
+
+struct SensorNoise {
+  double sigma_mm =
+      0.0;  ///< deviation of depth at 1 m on a surface that faces the camera; grows with z^2
+  double edge_loss = 0.0;  ///< chance that a pixel beside a jump in depth is lost
+  double jump_mm = 3.0;    ///< what counts as a jump
+  double grazing_cosine =
+      0.0;  ///< surfaces more oblique than this to the ray lose pixels, all of them at 0
+  double random_loss = 0.0;   ///< chance that any pixel is lost
+  double baseline_mm = 75.0;  ///< from the camera to the projector, along the camera's x
+};
+
+/// 1: a good structured-light sensor. 2: a rough one.
+SensorNoise sensorNoise(int level);
+
+/// Depth as the projector would see it: what it does not see is not lit.
+struct ProjectorView {
+  Camera camera;           ///< rectified: same orientation and focal length as the depth camera's
+  Image<float> depth_mm;   ///< 0 nothing
+  double baseline_mm = 0;  ///< its centre along the depth camera's x
+};
+
+Image<float> depthOf(const Image<SurfaceTexel>& surface);
+
+/// Whether the projector lights the point seen at pixel (u, v) of the depth camera.
+bool isLit(const ProjectorView& projector, const Camera& camera, int u, int v, double depth_mm);
+
+/// Depth as measured, in whole steps of camera.depth_scale; 0 where it is lost.
+Image<float> sensed(const Image<SurfaceTexel>& surface,
+                    const Camera& camera,
+                    const ProjectorView& projector,
+                    const SensorNoise& noise,
+                    Random& random);
+
+}  // namespace rangepose

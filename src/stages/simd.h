@@ -1,0 +1,38 @@
+// Eight floats at a time, and code compiled for more than one processor.
+#pragma once
+
+#include <cstring>
+
+// Vectors are only ever passed between inlined functions: no ABI is involved.
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wpsabi"
+#endif
+#define RP_ALWAYS_INLINE inline __attribute__((always_inline))
+
+namespace rangepose {
+
+/// GCC and Clang turn this into one AVX register or two SSE or NEON ones; the arithmetic, and with it
+/// every result, is the same.
+using Float8 = float __attribute__((vector_size(32)));
+
+RP_ALWAYS_INLINE Float8 load8(const float* from) {
+  Float8 value;
+  std::memcpy(&value, from, sizeof value);
+  return value;
+}
+
+RP_ALWAYS_INLINE Float8 splat8(float value) { return Float8{} + value; }
+
+/// Sum in a fixed order: pairs at distance 4, 2, 1.
+RP_ALWAYS_INLINE float sum8(const Float8& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+}  // namespace rangepose
+
+// Sanitizers start later than the resolvers of cloned functions run.
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#define RP_SIMD_CLONES __attribute__((target_clones("avx2", "default")))
+#else
+#define RP_SIMD_CLONES
+#endif

@@ -1,0 +1,110 @@
+#include <map>
+#include <utility>
+
+#include "stages/channels_host.h"
+#include "stages/resample_host.h"
+#include "stages/search_host.h"
+#include "stages/stage_set.h"
+
+namespace rangepose {
+namespace {
+
+class HostScene : public ResidentScene {
+ public:
+  explicit HostScene(SceneChannels channels) : channels_(std::move(channels)) {}
+  const OrthoCamera& camera() const override { return channels_.camera; }
+  SceneChannels download() const override { return channels_; }
+  const SceneChannels& channels() const { return channels_; }
+
+ private:
+  SceneChannels channels_;
+};
+
+class HostStages : public StageSet {
+ public:
+  std::string name() const override { return "host"; }
+  /// All but the first search of an object, which packs its views.
+  bool concurrent() const override { return true; }
+
+  Image<float> resample(const DepthImage& image,
+                        const Image<std::uint8_t>& keep,
+                        const OrthoCamera& camera) override {
+    return host::resample(image, keep, camera);
+  }
+  Image<float> median(const Image<float>& range) override { return host::median(range); }
+  Image<float> edges(const Image<float>& range_px, float threshold_px) override {
+    return host::edges(range_px, threshold_px);
+  }
+  Image<EdtTexel> distanceTexels(const Image<float>& range_px,
+                                 const Image<float>& edges,
+                                 int passes) override {
+    return host::distanceTexels(range_px, edges, passes);
+  }
+  Image<float> distance(const Image<float>& range_px, const Image<float>& edges, int passes) override {
+    return host::distance(range_px, edges, passes);
+  }
+  Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {
+    return host::patches(range_px, edges);
+  }
+  std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
+                                     const SceneChannels& window,
+                                     const std::vector<glm::vec3>& translations_px,
+                                     const ErrorOptions& options) override {
+    return host::errorTerms(object, packed(object), window, translations_px, options);
+  }
+  std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
+                                         const std::vector<float>& values,
+                                         const SimplexOptions& options) override {
+    RP_CHECK(states.size() == values.size(), "one value a simplex is needed");
+    std::vector<SimplexState> result;
+    result.reserve(states.size());
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      result.push_back(simplexStep(states[i], values[i], options.spread, options.max_iterations));
+    }
+    return result;
+  }
+  Image<SurfaceTexel> renderSurface(const Mesh& mesh,
+                                    const Camera& camera,
+                                    const Pose& camera_from_object,
+                                    const SurfaceWindow& window) override {
+    return host::renderSurface(mesh, camera, camera_from_object, window);
+  }
+
+  std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
+                                         const Image<std::uint8_t>& keep,
+                                         const OrthoCamera& camera,
+                                         const PixelBox& region,
+                                         const ChannelOptions& options) override {
+    return upload(host::channels(camera, host::resample(image, keep, camera, region), options));
+  }
+  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
+    return std::make_unique<HostScene>(channels);
+  }
+  Image<std::int32_t> patches(const ResidentScene& scene) override {
+    const SceneChannels& channels = static_cast<const HostScene&>(scene).channels();
+    return host::patches(channels.range_px, channels.edges);
+  }
+  std::vector<Hypothesis> search(const ReferenceObject& object,
+                                 const std::vector<const ResidentScene*>& windows,
+                                 const std::vector<float>& seed_range_px,
+                                 const SearchOptions& options) override {
+    std::vector<const SceneChannels*> channels;
+    for (const ResidentScene* window : windows) {
+      channels.push_back(&static_cast<const HostScene*>(window)->channels());
+    }
+    return host::search(object, packed(object), channels, seed_range_px, options);
+  }
+
+ private:
+  const host::PackedViews& packed(const ReferenceObject& object) {
+    return packed_.try_emplace(&object, object).first->second;
+  }
+
+  std::map<const ReferenceObject*, host::PackedViews> packed_;
+};
+
+}  // namespace
+
+std::unique_ptr<StageSet> makeHostStages() { return std::make_unique<HostStages>(); }
+
+}  // namespace rangepose

@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "stages/surface.h"
+
+namespace rangepose {
+
+SurfaceWindow windowAround(const Camera& camera,
+                           const glm::dvec3& center_mm,
+                           double radius_mm,
+                           int max_pixels) {
+  const bool seen = camera.orthographic || center_mm.z - radius_mm > 0.0;
+  if (!seen) return {};
+  // Bounds of the projection of the sphere's box: a little larger than those of the sphere.
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(std::numeric_limits<double>::lowest());
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const glm::dvec2 pixel = camera.project(center_mm + radius_mm * sign);
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  low = glm::max(low, glm::dvec2(0.0));
+  high = glm::min(high, glm::dvec2(camera.width - 1, camera.height - 1));
+  if (!(low.x <= high.x) || !(low.y <= high.y)) return {};
+  SurfaceWindow window;
+  window.x0 = static_cast<int>(std::floor(low.x));
+  window.y0 = static_cast<int>(std::floor(low.y));
+  const int width = static_cast<int>(std::ceil(high.x)) - window.x0 + 1;
+  const int height = static_cast<int>(std::ceil(high.y)) - window.y0 + 1;
+  window.step = std::max(1, (std::max(width, height) + max_pixels - 1) / max_pixels);
+  window.width = (width + window.step - 1) / window.step;
+  window.height = (height + window.step - 1) / window.step;
+  return window;
+}
+
+namespace host {
+namespace {
+
+struct ScreenVertex {
+  glm::dvec3 point_mm;  ///< in the camera frame
+  glm::dvec2 pixel;     ///< in the window
+  bool in_front;
+};
+
+/// The plane of a triangle seen along the ray of a pixel.
+class DepthPlane {
+ public:
+  DepthPlane(const Camera& camera, const glm::dvec3& normal, const glm::dvec3& point)
+      : camera_(camera), normal_(normal), offset_(glm::dot(normal, point)) {}
+
+  /// Depth along z at camera pixel (u, v).
+  double depth(double u, double v) const {
+    if (camera_.orthographic) {
+      const glm::dvec3 p = camera_.unproject(u, v, 0.0);
+      return (offset_ - normal_.x * p.x - normal_.y * p.y) / normal_.z;
+    }
+    return offset_ / glm::dot(normal_, camera_.unproject(u, v, 1.0));
+  }
+
+ private:
+  const Camera& camera_;
+  glm::dvec3 normal_;
+  double offset_;
+};
+
+double edgeFunction(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
+  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+void fillTriangle(const std::array<ScreenVertex, 3>& corner,
+                  const Camera& camera,
+                  const SurfaceWindow& window,
+                  Image<SurfaceTexel>& surface) {
+  const double area = edgeFunction(corner[0].pixel, corner[1].pixel, corner[2].pixel);
+  if (area == 0.0) return;
+  const glm::dvec2 low = glm::min(corner[0].pixel, glm::min(corner[1].pixel, corner[2].pixel));
+  const glm::dvec2 high = glm::max(corner[0].pixel, glm::max(corner[1].pixel, corner[2].pixel));
+  const int x0 = static_cast<int>(std::ceil(std::max(low.x, 0.0)));
+  const int y0 = static_cast<int>(std::ceil(std::max(low.y, 0.0)));
+  const int x1 = static_cast<int>(std::floor(std::min(high.x, window.width - 1.0)));
+  const int y1 = static_cast<int>(std::floor(std::min(high.y, window.height - 1.0)));
+  if (x0 > x1 || y0 > y1) return;
+  glm::dvec3 normal = glm::cross(corner[1].point_mm - corner[0].point_mm,
+                                 corner[2].point_mm - corner[0].point_mm);
+  const double length = glm::length(normal);
+  if (length == 0.0) return;
+  normal /= length;
+  if (glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : corner[0].point_mm) > 0.0) {
+    normal = -normal;
+  }
+  const DepthPlane plane(camera, normal, corner[0].point_mm);
+  const double low_z = std::min({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
+  const double high_z = std::max({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
+  const double sign = area > 0.0 ? 1.0 : -1.0;
+  for (int y = y0; y <= y1; ++y) {
+    for (int x = x0; x <= x1; ++x) {
+      const glm::dvec2 p(x, y);
+      if (sign * edgeFunction(corner[0].pixel, corner[1].pixel, p) < 0.0 ||
+          sign * edgeFunction(corner[1].pixel, corner[2].pixel, p) < 0.0 ||
+          sign * edgeFunction(corner[2].pixel, corner[0].pixel, p) < 0.0) {
+        continue;
+      }
+      // A face seen edge on has no stable plane: its corners bound the depth.
+      const double z = plane.depth(window.x0 + x * window.step, window.y0 + y * window.step);
+      const float depth = static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z, high_z) : low_z);
+      SurfaceTexel& texel = surface.at(x, y);
+      if (texel.w == 0.0f || depth < texel.w) texel = SurfaceTexel(glm::vec3(normal), depth);
+    }
+  }
+}
+
+}  // namespace
+
+Image<SurfaceTexel> renderSurface(const Mesh& mesh,
+                                  const Camera& camera,
+                                  const Pose& camera_from_object,
+                                  const SurfaceWindow& window) {
+  Image<SurfaceTexel> surface(window.width, window.height, SurfaceTexel(0.0f));
+  if (surface.empty()) return surface;
+  std::vector<ScreenVertex> vertices(mesh.vertices.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    ScreenVertex& vertex = vertices[i];
+    vertex.point_mm = camera_from_object * glm::dvec3(mesh.vertices[i]);
+    vertex.in_front = camera.orthographic || vertex.point_mm.z > 1.0;
+    if (!vertex.in_front) continue;
+    const glm::dvec2 pixel = camera.project(vertex.point_mm);
+    vertex.pixel = (pixel - glm::dvec2(window.x0, window.y0)) / static_cast<double>(window.step);
+  }
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const std::array<ScreenVertex, 3> corner = {
+        vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
+    if (!corner[0].in_front || !corner[1].in_front || !corner[2].in_front) continue;
+    fillTriangle(corner, camera, window, surface);
+  }
+  return surface;
+}
+
+}  // namespace host
+}  // namespace rangepose

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Makes the meshes in models/ anew from their OpenSCAD sources. Needs openscad and python3; the meshes are
+# in the repository, so that building and testing needs neither.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+for program in openscad python3; do
+  if ! command -v "$program" > /dev/null; then
+    echo "tools/models.sh: $program is missing; apt-get install $program" >&2
+    exit 1
+  fi
+done
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+for source in models/*.scad; do
+  part=$(basename "$source" .scad)
+  openscad -q -o "$work/$part.off" "$source"
+  python3 tools/off_to_ply.py "$work/$part.off" "models/$part.ply" --max-edge 12
+done
