@@ -1,7 +1,7 @@
 // One pass of the pixel grouping (paper Sect. 5.3). Twin of host::patches once nothing changes.
 //
 // A label is the index of a pixel of the same patch and only ever falls. The smallest label of the
-// 4-neighbours spreads by one pixel a pass; taking the label of the pixel it names makes it jump ahead.
+// 4-neighbours spreads by one pixel a pass; taking the label of the pixel it names makes it jump.
 uniform highp isampler2D u_previous;
 uniform int u_width;
 flat in highp ivec4 v_bounds;

@@ -1,6 +1,6 @@
 // One pass of the log-step reduction (paper Fig. 9): a pixel, its right, its lower and its diagonal
-// neighbour. The targets shrink: the paper keeps the size and adds at distances 1, 2, 4, ..., but only every
-// second, fourth, ... pixel of its sums is ever read. The sums are the same.
+// neighbour. The targets shrink: the paper keeps the size and adds at distances 1, 2, 4, ..., but
+// only every second, fourth, ... pixel of its sums is ever read. The sums are the same.
 uniform sampler2D u_previous;
 uniform int u_previous_pitch;  // width of a tile of the previous level [px]
 

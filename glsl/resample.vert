@@ -39,5 +39,6 @@ void main() {
   bool drawn = depth != 0.0 && pz > 0.0 && all(lessThan(vec2(part), vec2(count))) &&
                all(greaterThanEqual(target, vec2(0.0))) && all(lessThan(target, size));
   // Outside of the clip volume where nothing is drawn.
-  gl_Position = drawn ? vec4(2.0 * (target + 0.5) / size - 1.0, 0.0, 1.0) : vec4(2.0, 2.0, 2.0, 1.0);
+  gl_Position = drawn ? vec4(2.0 * (target + 0.5) / size - 1.0, 0.0, 1.0)
+                      : vec4(2.0, 2.0, 2.0, 1.0);
 }

@@ -1,5 +1,5 @@
-// One simplex step of one view (paper Sect. 6.3.2): every fragment repeats the whole step and writes its row.
-// Twin of simplexStep in src/stages/simplex_core.h.
+// One simplex step of one view (paper Sect. 6.3.2): every fragment repeats the whole step and
+// writes its row. Twin of simplexStep in src/stages/simplex_core.h.
 uniform sampler2D u_state;
 uniform float u_spread;
 uniform int u_max_iterations;

@@ -4,7 +4,8 @@ layout(location = 1) in highp vec3 i_normal;    // of the face, unit length
 
 uniform mat3 u_rotation;       // camera_from_object
 uniform vec3 u_translation;    // [mm]
-uniform vec4 u_projection;     // perspective: window px = xy * point.xy / point.z + zw; else xy * point.xy + zw
+// Perspective: window px = xy * point.xy / point.z + zw; else xy * point.xy + zw.
+uniform vec4 u_projection;
 uniform vec2 u_depth_range;    // nearest and farthest z [mm]
 uniform vec2 u_window_size;    // [px]
 uniform int u_orthographic;

@@ -30,8 +30,12 @@ void VertexArray::add(const Buffer& buffer, const Attribute& attribute) {
     glVertexAttribIPointer(
         attribute.location, attribute.components, GL_INT, attribute.stride_bytes, offset);
   } else {
-    glVertexAttribPointer(
-        attribute.location, attribute.components, GL_FLOAT, GL_FALSE, attribute.stride_bytes, offset);
+    glVertexAttribPointer(attribute.location,
+                          attribute.components,
+                          GL_FLOAT,
+                          GL_FALSE,
+                          attribute.stride_bytes,
+                          offset);
   }
   glVertexAttribDivisor(attribute.location, attribute.per_instance ? 1 : 0);
 }

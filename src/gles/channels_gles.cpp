@@ -98,7 +98,8 @@ Canvas patches(Device& device, const Texture& range_px, const Texture& edges) {
           .draw(image.whole());
       std::swap(current, next);
     }
-    // `next` holds the last but one pass; its own framebuffer cannot be the target while it is read.
+    // `next` holds the last but one pass; its own framebuffer cannot be the target while it is
+    // read.
     const Canvas unused = image.canvas(Format::kR32i);
     glBeginQuery(GL_ANY_SAMPLES_PASSED, query.id());
     image.into(unused, ProgramId::kPatchChanged)

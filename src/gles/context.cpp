@@ -17,22 +17,16 @@ struct GlExtension {
   const char* name;
   bool required;
 };
-constexpr GlExtension kUsedExtensions[] = {{"GL_EXT_color_buffer_float", true},
-                                           {"GL_KHR_debug", false},
-                                           {"GL_EXT_gpu_shader5", false}};
+constexpr GlExtension kUsedExtensions[] = {
+    {"GL_EXT_color_buffer_float", true}, {"GL_KHR_debug", false}, {"GL_EXT_gpu_shader5", false}};
 
 /// What the debug callback leaves for checkGl.
 struct DebugLog {
   std::string first_error;
 };
 
-void GL_APIENTRY keepFirstError(GLenum,
-                                GLenum type,
-                                GLuint,
-                                GLenum,
-                                GLsizei,
-                                const GLchar* message,
-                                const void* user) {
+void GL_APIENTRY keepFirstError(
+    GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void* user) {
   if (type != GL_DEBUG_TYPE_ERROR_KHR) return;
   auto* log = static_cast<DebugLog*>(const_cast<void*>(user));
   if (log->first_error.empty()) log->first_error = message;
@@ -114,7 +108,8 @@ struct Context::State {
   DebugLog log;
 };
 
-Context::State::State(const DisplaySource& source, const ContextOptions& options) : display(source) {
+Context::State::State(const DisplaySource& source, const ContextOptions& options)
+    : display(source) {
   info.platform = source.name;
   try {
     create(options.debug);
@@ -144,16 +139,10 @@ void Context::State::destroy() noexcept {
 }
 
 EGLConfig Context::State::chooseConfig() const {
-  const EGLint with_pbuffer[] = {EGL_SURFACE_TYPE,
-                                 EGL_PBUFFER_BIT,
-                                 EGL_RENDERABLE_TYPE,
-                                 EGL_OPENGL_ES3_BIT,
-                                 EGL_NONE};
-  const EGLint any[] = {EGL_SURFACE_TYPE,
-                        EGL_DONT_CARE,
-                        EGL_RENDERABLE_TYPE,
-                        EGL_OPENGL_ES3_BIT,
-                        EGL_NONE};
+  const EGLint with_pbuffer[] = {
+      EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
+  const EGLint any[] = {
+      EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
   if (eglChooseConfig(display.get(), with_pbuffer, &config, 1, &count) == EGL_TRUE && count > 0) {
@@ -251,8 +240,8 @@ void Context::makeCurrent() {
   if (eglGetCurrentContext() == state_->context) return;
   const EGLSurface surface = state_->surface;
   if (eglMakeCurrent(state_->display.get(), surface, surface, state_->context) != EGL_TRUE) {
-    throw Error("EGL context cannot be made current on this thread (" + eglErrorName(eglGetError()) +
-                "); release() it on the thread that has it");
+    throw Error("EGL context cannot be made current on this thread (" +
+                eglErrorName(eglGetError()) + "); release() it on the thread that has it");
   }
 }
 

@@ -17,9 +17,9 @@ struct DeviceFunctions {
 
   DeviceFunctions() {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    const bool listed = hasWord(client, "EGL_EXT_device_base") ||
-                        (hasWord(client, "EGL_EXT_device_enumeration") &&
-                         hasWord(client, "EGL_EXT_device_query"));
+    const bool listed =
+        hasWord(client, "EGL_EXT_device_base") ||
+        (hasWord(client, "EGL_EXT_device_enumeration") && hasWord(client, "EGL_EXT_device_query"));
     if (!listed || !hasWord(client, "EGL_EXT_platform_device")) return;
     devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     text = reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(
@@ -42,6 +42,7 @@ struct DeviceFunctions {
 EglDeviceInfo describe(const DeviceFunctions& functions, EGLDeviceEXT device, int index) {
   EglDeviceInfo info;
   info.index = index;
+  if (functions.text == nullptr || functions.attribute == nullptr) return info;
   const char* extensions = functions.text(device, EGL_EXTENSIONS);
   info.extensions = extensions == nullptr ? "" : extensions;
   info.software = hasWord(extensions, "EGL_MESA_device_software");
@@ -129,9 +130,8 @@ std::vector<DisplaySource> displaySources(int cuda_device) {
     ranked.emplace_back(rank, sourceOf(device, index));
     ++index;
   }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
-    return a.first < b.first;
-  });
+  std::stable_sort(
+      ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   std::vector<DisplaySource> result;
   result.reserve(ranked.size() + 2);
   for (auto& [rank, source] : ranked) result.push_back(std::move(source));
@@ -145,8 +145,8 @@ std::vector<DisplaySource> displaySources(int cuda_device) {
 
 Display::Display(const DisplaySource& source) {
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-  // Two contexts of one process get the same display. Without reference counting the first to go would
-  // terminate it for the other, so then it is never terminated.
+  // Two contexts of one process get the same display. Without reference counting the first to go
+  // would terminate it for the other, so then it is never terminated.
   referenced_ = source.platform != 0 && hasWord(client, "EGL_KHR_display_reference");
   const EGLAttrib counted[] = {EGL_TRACK_REFERENCES_KHR, EGL_TRUE, EGL_NONE};
   const EGLAttrib plain[] = {EGL_NONE};

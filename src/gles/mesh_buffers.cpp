@@ -22,7 +22,8 @@ std::vector<Corner> cornersOf(const Mesh& mesh, const glm::dvec3& center) {
     const glm::dvec3 cross = glm::cross(at[1] - at[0], at[2] - at[0]);
     const double length = glm::length(cross);
     if (length == 0.0) continue;
-    for (const glm::dvec3& p : at) corners.push_back({glm::vec3(p - center), glm::vec3(cross / length)});
+    for (const glm::dvec3& p : at)
+      corners.push_back({glm::vec3(p - center), glm::vec3(cross / length)});
   }
   return corners;
 }
@@ -35,8 +36,7 @@ Buffer upload(const std::vector<Corner>& corners, int& count) {
 }  // namespace
 
 MeshBuffers::MeshBuffers(const Mesh& mesh)
-    : sphere_(boundingSphere(mesh)),
-      buffer_(upload(cornersOf(mesh, sphere_.center_mm), corners_)) {
+    : sphere_(boundingSphere(mesh)), buffer_(upload(cornersOf(mesh, sphere_.center_mm), corners_)) {
   addTo(vertices_);
 }
 

@@ -4,7 +4,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <fstream>
-#include <regex>
 #include <sstream>
 
 #include "core/error.h"
@@ -24,9 +23,9 @@ std::vector<ShaderText> load(const std::vector<std::string>& names) {
   return texts;
 }
 
-/// Line numbers tell the file too: those of file i begin after i * kLinesPerFile. (The number of a source string
-/// would be the means for it, but Mesa drops it from some of its messages.)
-constexpr int kLinesPerFile = 100000;
+/// Line numbers tell the file too: file i begins with line (i + 1) * kLinesPerFile + 1. (The number
+/// of a source string would be the means for it, but Mesa drops it from some of its messages.)
+constexpr unsigned long kLinesPerFile = 100000;
 
 std::string joined(const Context& context,
                    const std::vector<ShaderText>& files,
@@ -40,7 +39,7 @@ std::string joined(const Context& context,
   }
   text << kPrecision;
   for (const auto& [name, value] : defines) text << "#define " << name << ' ' << value << '\n';
-  int line = 1;
+  unsigned long line = kLinesPerFile + 1;
   for (const ShaderText& file : files) {
     text << "#line " << line << '\n' << file.text << '\n';
     line += kLinesPerFile;
@@ -55,22 +54,26 @@ std::string oneLine(std::string text) {
   return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
-/// The log with its places, "0:line(column)" (Mesa) or "0(line)" (NVIDIA), written as "file:line".
+/// The log with its line numbers written as "file:line". Drivers put a number of their own in
+/// front, "0:line" (Mesa) or "0(line" (NVIDIA), which goes away.
 std::string compileMessage(const std::vector<ShaderText>& files, const std::string& log) {
-  static const std::regex kPlace(R"(\d+:(\d+)\(\d+\)|\d+\((\d+)\)|\d+:(\d+))");
   std::string message;
   bool placed = false;
-  auto rest = log.cbegin();
-  for (std::smatch match; std::regex_search(rest, log.cend(), match, kPlace); rest = match[0].second) {
-    const std::string number = match[1].str() + match[2].str() + match[3].str();
-    const unsigned long line = std::strtoul(number.c_str(), nullptr, 10);
-    const std::size_t file = line / kLinesPerFile;
-    message.append(rest, match[0].first);
-    const bool known = file < files.size();
-    message += known ? files[file].name + ":" + std::to_string(line % kLinesPerFile) : match[0].str();
-    placed = placed || known;
+  for (std::size_t at = 0; at < log.size();) {
+    const std::size_t end = std::min(log.find_first_not_of("0123456789", at), log.size());
+    const unsigned long number = end > at ? std::strtoul(log.c_str() + at, nullptr, 10) : 0;
+    const std::size_t file = number / kLinesPerFile;
+    if (file >= 1 && file <= files.size()) {
+      if (message.ends_with("0:") || message.ends_with("0(")) message.resize(message.size() - 2);
+      message += files[file - 1].name + ":" + std::to_string(number % kLinesPerFile);
+      placed = true;
+      at = end;
+    } else {
+      const std::size_t next = std::max(end, at + 1);
+      message.append(log, at, next - at);
+      at = next;
+    }
   }
-  message.append(rest, log.cend());
   return "shader " + (placed ? "" : files.back().name + ": ") + oneLine(message);
 }
 

@@ -16,7 +16,8 @@
 namespace rangepose::gles {
 namespace {
 
-/// Texels of a target that is drawn at once: large enough to fill a GPU, small enough for its caches.
+/// Texels of a target that is drawn at once: large enough to fill a GPU, small enough for its
+/// caches.
 constexpr int kTexelsPerBatch = 1 << 20;
 /// Triangles of one draw call, so that no call keeps a shared GPU from its other users for long.
 constexpr int kTrianglesPerDraw = 4'000'000;
@@ -33,12 +34,16 @@ void checkObject(const ReferenceObject& object) {
   const std::string where = "references of object " + std::to_string(object.id) + ": ";
   RP_CHECK(!object.views.empty(), where + "no views");
   RP_CHECK(object.size >= 8, where + "tiles need 8 px at least");
-  RP_CHECK(std::isfinite(object.pixel_mm) && object.pixel_mm > 0.0, where + "pixel_mm must be positive");
+  RP_CHECK(std::isfinite(object.pixel_mm) && object.pixel_mm > 0.0,
+           where + "pixel_mm must be positive");
   RP_CHECK(object.radius_mm <= 0.5 * object.size * object.pixel_mm,
            where + "the bounding sphere does not fit into a tile; raise pixel_mm");
 }
 
-ViewTransform transformOf(const ReferenceObject& object, int view, const glm::dvec3& origin_mm, const glm::ivec2& tile) {
+ViewTransform transformOf(const ReferenceObject& object,
+                          int view,
+                          const glm::dvec3& origin_mm,
+                          const glm::ivec2& tile) {
   const glm::dmat3& rotation = object.views[static_cast<std::size_t>(view)].rotation;
   const glm::dvec3 shift = rotation * (origin_mm - object.center_mm) / object.pixel_mm;
   const double half = 0.5 * object.size;
@@ -52,8 +57,8 @@ ViewTransform transformOf(const ReferenceObject& object, int view, const glm::dv
   return {row(0), row(1), row(2)};
 }
 
-/// Box in the target that holds all texels of the view which differ from an empty tile: the object and the
-/// background that its edges reach in `passes` passes.
+/// Box in the target that holds all texels of the view which differ from an empty tile: the object
+/// and the background that its edges reach in `passes` passes.
 PixelBox reachOf(const Mesh& mesh,
                  const glm::dvec3& origin_mm,
                  const ViewTransform& view,
@@ -77,7 +82,11 @@ PixelBox reachOf(const Mesh& mesh,
 /// Renders views [first, first + count) of an object into a target of whole rows of tiles.
 class BatchRenderer {
  public:
-  BatchRenderer(Context& context, const ReferenceObject& object, const ChannelOptions& options, int columns, int rows)
+  BatchRenderer(Context& context,
+                const ReferenceObject& object,
+                const ChannelOptions& options,
+                int columns,
+                int rows)
       : device_(context),
         object_(object),
         options_(options),
@@ -123,7 +132,8 @@ class BatchRenderer {
     surface_target_.clear(glm::vec4(0.0f));
     surface_target_.clearDepth();
     const int triangles = std::max(1, mesh_.corners() / 3);
-    const std::size_t per_draw = static_cast<std::size_t>(std::max(1, kTrianglesPerDraw / triangles));
+    const std::size_t per_draw =
+        static_cast<std::size_t>(std::max(1, kTrianglesPerDraw / triangles));
     for (std::size_t first = 0; first < transforms_.size(); first += per_draw) {
       const std::size_t count = std::min(per_draw, transforms_.size() - first);
       const Buffer instances(transforms_.data() + first, count * sizeof(ViewTransform));
@@ -188,9 +198,9 @@ class BatchRenderer {
 };
 
 /// Box, area and anchor of a view from its tile.
-void describeView(ReferenceObject& object, int index) {
+void describeView(ReferenceObject& object, int index, int columns) {
   ReferenceView& view = object.views[static_cast<std::size_t>(index)];
-  const glm::ivec2 origin = object.tileOrigin(index);
+  const glm::ivec2 origin = glm::ivec2(index % columns, index / columns) * object.size;
   PixelBox box = {object.size, object.size, 0, 0};
   int area = 0;
   float inner = -std::numeric_limits<float>::max();
@@ -199,7 +209,10 @@ void describeView(ReferenceObject& object, int index) {
     for (int u = 0; u < object.size; ++u) {
       if (row[u].a == 0.0f) continue;
       ++area;
-      box = {std::min(box.x0, u), std::min(box.y0, v), std::max(box.x1, u + 1), std::max(box.y1, v + 1)};
+      box = {std::min(box.x0, u),
+             std::min(box.y0, v),
+             std::max(box.x1, u + 1),
+             std::max(box.y1, v + 1)};
       if (row[u].r > inner) {
         inner = row[u].r;
         view.anchor_px = {static_cast<float>(u), static_cast<float>(v), row[u].g};
@@ -207,8 +220,8 @@ void describeView(ReferenceObject& object, int index) {
     }
   }
   if (area == 0) {
-    throw Error("references of object " + std::to_string(object.id) + ": view " + std::to_string(index) +
-                " shows no pixel; the mesh is too thin for this pixel_mm");
+    throw Error("references of object " + std::to_string(object.id) + ": view " +
+                std::to_string(index) + " shows no pixel; the mesh is too thin for this pixel_mm");
   }
   view.box = box;
   view.area_px = static_cast<float>(area);
@@ -240,7 +253,7 @@ void renderReferences(Context& context,
     if (progress) progress(first + count, views);
   }
   parallelFor(views, kViewsPerPiece, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) describeView(object, i);
+    for (int i = begin; i < end; ++i) describeView(object, i, columns);
   });
 }
 

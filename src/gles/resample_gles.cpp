@@ -9,7 +9,9 @@ namespace rangepose::gles {
 namespace {
 
 /// The pixels that are read, with those left out set to "no measurement".
-Image<float> measured(const DepthImage& image, const Image<std::uint8_t>& keep, const PixelBox& box) {
+Image<float> measured(const DepthImage& image,
+                      const Image<std::uint8_t>& keep,
+                      const PixelBox& box) {
   Image<float> depth(box.width(), box.height(), 0.0f);
   for (int y = 0; y < depth.height(); ++y) {
     for (int x = 0; x < depth.width(); ++x) {

@@ -38,7 +38,11 @@ void checkObject(const ReferenceObject& object) {
            "object " + std::to_string(object.id) + ": the atlas has fewer tiles than views");
 }
 
-Pass viewPass(Device& device, ProgramId program, const ResidentObject& object, const Texture& state, int level) {
+Pass viewPass(Device& device,
+              ProgramId program,
+              const ResidentObject& object,
+              const Texture& state,
+              int level) {
   const Framebuffer& target = object.levels()[static_cast<std::size_t>(level)].framebuffer;
   Pass pass(device, program, target);
   pass.texture("u_state", state)
@@ -145,7 +149,8 @@ std::vector<ErrorTerms> errorTerms(Device& device,
                                    const WindowTextures& window,
                                    const std::vector<glm::vec3>& translations_px,
                                    const ErrorOptions& options) {
-  RP_CHECK(static_cast<int>(translations_px.size()) == object.views(), "one translation a view is needed");
+  RP_CHECK(static_cast<int>(translations_px.size()) == object.views(),
+           "one translation a view is needed");
   std::vector<SimplexState> states;
   states.reserve(translations_px.size());
   for (const glm::vec3& t : translations_px) states.push_back(simplexStart(t.x, t.y, t.z, 0.0f));

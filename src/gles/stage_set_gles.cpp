@@ -15,7 +15,8 @@ namespace {
 
 class GlesScene : public ResidentScene {
  public:
-  GlesScene(Context& context, const OrthoCamera& camera, Texture range, Texture edge, Texture distance)
+  GlesScene(
+      Context& context, const OrthoCamera& camera, Texture range, Texture edge, Texture distance)
       : context_(context),
         camera_(camera),
         range_px(std::move(range)),
@@ -25,7 +26,8 @@ class GlesScene : public ResidentScene {
   const OrthoCamera& camera() const override { return camera_; }
   SceneChannels download() const override {
     context_.makeCurrent();
-    return {camera_, range_px.downloadFloats(), edges.downloadFloats(), distance_px.downloadFloats()};
+    return {
+        camera_, range_px.downloadFloats(), edges.downloadFloats(), distance_px.downloadFloats()};
   }
 
  private:
@@ -83,9 +85,12 @@ class GlesStages : public StageSet {
     return downloadEdt(
         gles::distanceTexels(device, Texture(range_px), Texture(edges), passes).texture);
   }
-  Image<float> distance(const Image<float>& range_px, const Image<float>& edges, int passes) override {
+  Image<float> distance(const Image<float>& range_px,
+                        const Image<float>& edges,
+                        int passes) override {
     Device& device = current();
-    return gles::distance(device, Texture(range_px), Texture(edges), passes).texture.downloadFloats();
+    return gles::distance(device, Texture(range_px), Texture(edges), passes)
+        .texture.downloadFloats();
   }
   Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {
     Device& device = current();
@@ -171,7 +176,8 @@ Image<SurfaceTexel> GlesStages::renderSurface(const Mesh& mesh,
   if (window.width <= 0 || window.height <= 0) return {};
   Device& device = current();
   return downloadVectors(
-      gles::renderSurface(device, mesh, resident(mesh), camera, camera_from_object, window).texture);
+      gles::renderSurface(device, mesh, resident(mesh), camera, camera_from_object, window)
+          .texture);
 }
 
 std::unique_ptr<ResidentScene> GlesStages::prepare(const DepthImage& image,

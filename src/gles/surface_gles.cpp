@@ -7,14 +7,18 @@
 namespace rangepose::gles {
 namespace {
 
-/// Points of a perspective view count as in front of the camera beyond this depth [mm], as on the host.
+/// Points of a perspective view count as in front of the camera beyond this depth [mm], as on the
+/// host.
 constexpr double kNearestMm = 1.0;
 
 glm::vec4 projection(const Camera& camera, const SurfaceWindow& window) {
   const glm::dvec2 scale = camera.orthographic ? glm::dvec2(1.0 / camera.pixel_size_mm)
                                                : glm::dvec2(camera.fx, camera.fy);
   const double step = window.step;
-  return {scale.x / step, scale.y / step, (camera.cx - window.x0) / step, (camera.cy - window.y0) / step};
+  return {scale.x / step,
+          scale.y / step,
+          (camera.cx - window.x0) / step,
+          (camera.cy - window.y0) / step};
 }
 
 Mesh inFront(const Mesh& mesh, const Pose& camera_from_object) {
@@ -23,10 +27,11 @@ Mesh inFront(const Mesh& mesh, const Pose& camera_from_object) {
   const auto in_front = [&](unsigned index) {
     return (camera_from_object * glm::dvec3(mesh.vertices[index])).z > kNearestMm;
   };
-  std::copy_if(mesh.triangles.begin(),
-               mesh.triangles.end(),
-               std::back_inserter(result.triangles),
-               [&](const glm::uvec3& t) { return in_front(t.x) && in_front(t.y) && in_front(t.z); });
+  std::copy_if(
+      mesh.triangles.begin(),
+      mesh.triangles.end(),
+      std::back_inserter(result.triangles),
+      [&](const glm::uvec3& t) { return in_front(t.x) && in_front(t.y) && in_front(t.z); });
   return result;
 }
 

@@ -41,7 +41,8 @@ bool readsOneChannel(GLenum layout, GLenum type) {
 }
 
 template <typename T>
-void downloadOneChannel(const Texture& texture, GLenum one, GLenum four, GLenum type, Image<T>& into) {
+void downloadOneChannel(
+    const Texture& texture, GLenum one, GLenum four, GLenum type, Image<T>& into) {
   const Framebuffer framebuffer(texture);
   framebuffer.bind();
   if (into.width() != texture.width() || into.height() != texture.height()) {
@@ -81,7 +82,8 @@ Texture::Texture(const Image<glm::vec4>& image)
   upload(image.data());
 }
 
-Texture::Texture(const Image<float>& image) : Texture(Format::kR32f, image.width(), image.height()) {
+Texture::Texture(const Image<float>& image)
+    : Texture(Format::kR32f, image.width(), image.height()) {
   upload(image.data());
 }
 

@@ -12,7 +12,6 @@ namespace rangepose {
 namespace {
 
 constexpr std::int64_t kMaxVertices = 100'000'000;
-constexpr int kMaxCorners = 1000;  // ear clipping takes the square of it and more
 
 const PlyElement* findElement(const PlyHeader& header, std::string_view name) {
   for (const PlyElement& element : header.elements) {
@@ -72,25 +71,15 @@ std::vector<unsigned> takeCorners(const PlyProperty& property,
                                   std::int64_t face,
                                   const std::string& where) {
   const int count = cursor.takeListLength(property);
-  if (count > kMaxCorners) {
-    throw Error(fmt::format("{}: face {} has {} corners; cut it into triangles", where, face, count));
-  }
+  checkCornerCount(count, face, where);
   std::vector<unsigned> corners(static_cast<std::size_t>(count));
   for (unsigned& corner : corners) {
-    const double index = cursor.take(property.type);
-    if (!(index >= 0.0 && index < static_cast<double>(vertex_count))) {
-      throw Error(fmt::format("{}: face {} names vertex {}, but there are {}; repair the file",
-                              where,
-                              face,
-                              index,
-                              vertex_count));
-    }
-    corner = static_cast<unsigned>(index);
+    corner = checkedCorner(cursor.take(property.type), vertex_count, face, where);
   }
   return corners;
 }
 
-void takeFaces(const PlyElement& element, PlyCursor& cursor, const std::string& where, PlyMesh& mesh) {
+void takeFaces(const PlyElement& element, PlyCursor& cursor, const std::string& where, RawMesh& mesh) {
   int list = element.indexOf("vertex_indices");
   if (list < 0) list = element.indexOf("vertex_index");
   if (list < 0 || !element.properties[static_cast<std::size_t>(list)].is_list) {
@@ -141,12 +130,12 @@ PlyVertices parsePlyVertices(std::string_view bytes, const std::string& where) {
   return result;
 }
 
-PlyMesh parsePlyMesh(std::string_view bytes, const std::string& where) {
+RawMesh parsePlyMesh(std::string_view bytes, const std::string& where) {
   const PlyHeader header = parsePlyHeader(bytes, where);
   const PlyElement& vertices = vertexElement(header, where);
   const PlyElement* faces = findElement(header, "face");
   PlyCursor cursor(header.format, header.body, where);
-  PlyMesh mesh;
+  RawMesh mesh;
   for (const PlyElement& element : header.elements) {
     if (&element == &vertices) {
       mesh.vertices = takeVertices(element, cursor, where);

@@ -1,6 +1,10 @@
 #include "io/polygon.h"
 
-#include <cstddef>
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "core/error.h"
 
 namespace rangepose {
 namespace {
@@ -45,6 +49,26 @@ bool isEar(const Vertices& vertices,
 }
 
 }  // namespace
+
+unsigned checkedCorner(double index,
+                       std::size_t vertex_count,
+                       std::int64_t face,
+                       const std::string& where) {
+  if (index >= 0.0 && index < static_cast<double>(vertex_count) && index == std::floor(index)) {
+    return static_cast<unsigned>(index);
+  }
+  throw Error(fmt::format("{}: face {} names vertex {}, but there are {}; repair the file",
+                          where,
+                          face,
+                          index,
+                          vertex_count));
+}
+
+void checkCornerCount(std::int64_t corners, std::int64_t face, const std::string& where) {
+  if (corners <= kMaxPolygonCorners) return;
+  throw Error(
+      fmt::format("{}: face {} has {} corners; cut it into triangles", where, face, corners));
+}
 
 void appendTriangles(const Vertices& vertices,
                      std::vector<unsigned> corners,

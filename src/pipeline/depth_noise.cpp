@@ -18,11 +18,15 @@ double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& ma
     }
   }
   if (differences.size() < 100) return 0.0;
-  // The lower quartile: on parts whose surface bends the median would measure the bend.
-  const auto quartile = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 4);
-  std::nth_element(differences.begin(), quartile, differences.end());
-  // |N(0, 6 sigma^2)| has its lower quartile at 0.3186 sqrt(6) sigma.
-  return static_cast<double>(*quartile) / (0.3186 * std::sqrt(6.0));
+  // The mean of the lower half: steps and bends of the surface are in the upper one, and unlike a quantile it
+  // does not vanish when depth is quantised.
+  const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
+  std::nth_element(differences.begin(), middle, differences.end());
+  std::sort(differences.begin(), middle);
+  double sum = 0.0;
+  for (auto it = differences.begin(); it != middle; ++it) sum += static_cast<double>(*it);
+  // For x from N(0, s^2) the mean of the lower half of |x| is 0.3247 s; here s = sqrt(6) sigma.
+  return sum / static_cast<double>(middle - differences.begin()) / (0.3247 * std::sqrt(6.0));
 }
 
 }  // namespace rangepose

@@ -8,7 +8,7 @@
 namespace rangepose {
 
 /// Standard deviation of the depth noise [mm] over the pixels of the mask: from second differences along rows,
-/// which do not see a plane of any slope; the median leaves edges out. 0 for fewer than 100 triples.
+/// which do not see a plane of any slope; only the lower half of them, which leaves edges out. 0 for fewer than 100 triples.
 double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& mask);
 
 }  // namespace rangepose

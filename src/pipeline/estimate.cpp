@@ -67,7 +67,7 @@ class Estimator {
     }
     const ScopedTimer timer(result_.times, "fine icp and check");
     refineFinely(candidates, database_, scene, stages_);
-    return bestDistinct(std::move(candidates), database_, options_.verified);
+    return bestOfEachPlace(std::move(candidates), database_);
   }
 
  private:
@@ -107,6 +107,9 @@ class Estimator {
     SeedOptions seed_options;
     seed_options.count = options_.starts;
     seed_options.min_patch_px = static_cast<int>(0.08 * area * scale * scale);
+    seed_options.max_patch_px =
+        static_cast<int>(1.2 * static_cast<double>(object.maxArea()) * scale * scale);
+    seed_options.apart_px = static_cast<float>(0.4 * object.diameter_mm / camera.pixel_mm);
     return seed_options;
   }
 

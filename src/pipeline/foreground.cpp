@@ -3,31 +3,60 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-
+#include <vector>
 
 namespace rangepose {
 namespace {
 
 constexpr int kSamples = 12000;
 constexpr int kTrialSamples = 1500;
-constexpr int kTrials = 500;
+constexpr int kTrials = 4000;
 /// A wall makes at least this angle with the floor: cos 50 degrees.
 constexpr double kMaxWallCos = 0.64;
+/// The surface at a point of a plane is tilted against it by at most this: cos 25 degrees. A plane that cuts
+/// through a heap has as many points near it as a floor, but not their slope.
+constexpr double kMinTiltCos = 0.906;
 
-using Points = std::vector<glm::dvec3>;
+/// A measured point with the slope of the surface there.
+struct Sample {
+  glm::dvec3 point;
+  glm::dvec3 normal;  ///< towards the camera
+};
+using Samples = std::vector<Sample>;
 
-Points sampled(const DepthImage& image) {
+/// Slope from the points `reach` pixels to either side.
+bool surfaceNormal(const DepthImage& image, int u, int v, int reach, glm::dvec3& normal) {
+  const auto depth = [&](int x, int y) {
+    return image.depth_mm.contains(x, y) ? static_cast<double>(image.depth_mm.at(x, y)) : 0.0;
+  };
+  const double left = depth(u - reach, v);
+  const double right = depth(u + reach, v);
+  const double up = depth(u, v - reach);
+  const double down = depth(u, v + reach);
+  if (left == 0.0 || right == 0.0 || up == 0.0 || down == 0.0) return false;
+  const glm::dvec3 x = image.camera.unproject(u + reach, v, right) - image.camera.unproject(u - reach, v, left);
+  const glm::dvec3 y = image.camera.unproject(u, v + reach, down) - image.camera.unproject(u, v - reach, up);
+  normal = glm::normalize(glm::cross(y, x));
+  return true;
+}
+
+Samples sampled(const DepthImage& image, double part_mm) {
   const auto measured = std::count_if(
       image.depth_mm.begin(), image.depth_mm.end(), [](float depth) { return depth > 0.0f; });
   const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(measured) / kSamples)));
-  Points points;
+  Samples samples;
   for (int v = 0; v < image.depth_mm.height(); v += stride) {
     for (int u = 0; u < image.depth_mm.width(); u += stride) {
       const double depth = image.depth_mm.at(u, v);
-      if (depth > 0.0) points.push_back(image.camera.unproject(u, v, depth));
+      if (!(depth > 0.0)) continue;
+      const int reach = std::clamp(
+          static_cast<int>(0.05 * part_mm / image.camera.pixelSpacingMm(depth)), 2, 20);
+      glm::dvec3 normal(0.0);
+      surfaceNormal(image, u, v, reach, normal);
+      samples.push_back({image.camera.unproject(u, v, depth), normal});
     }
   }
-  return points;
+  return samples;
 }
 
 BackgroundPlane facingCamera(glm::dvec3 normal, const glm::dvec3& point, bool orthographic) {
@@ -36,33 +65,46 @@ BackgroundPlane facingCamera(glm::dvec3 normal, const glm::dvec3& point, bool or
   return {normal, glm::dot(normal, point)};
 }
 
-int countNear(const Points& points, const BackgroundPlane& plane, double tolerance, std::size_t stride) {
+bool liesOn(const Sample& sample, const BackgroundPlane& plane, double tolerance) {
+  return std::abs(plane.heightOf(sample.point)) <= tolerance &&
+         glm::dot(sample.normal, plane.normal) > kMinTiltCos;
+}
+
+/// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no background.
+int countOn(const Samples& samples,
+              const BackgroundPlane& plane,
+              double tolerance,
+              std::size_t stride,
+              double max_behind) {
   int count = 0;
-  for (std::size_t i = 0; i < points.size(); i += stride) {
-    count += std::abs(plane.heightOf(points[i])) <= tolerance ? 1 : 0;
+  int behind = 0;
+  for (std::size_t i = 0; i < samples.size(); i += stride) {
+    count += liesOn(samples[i], plane, tolerance) ? 1 : 0;
+    behind += plane.heightOf(samples[i].point) < -3.0 * tolerance ? 1 : 0;
+    if (behind > max_behind) return 0;
   }
   return count;
 }
 
-/// Mean and scatter of the points near a plane.
+/// Mean and scatter of the points on a plane.
 struct Scatter {
   glm::dvec3 mean{0.0};
   glm::dmat3 covariance{0.0};
   int count = 0;
 };
 
-Scatter scatterNear(const Points& points, const BackgroundPlane& plane, double tolerance) {
+Scatter scatterOn(const Samples& samples, const BackgroundPlane& plane, double tolerance) {
   Scatter scatter;
-  for (const glm::dvec3& point : points) {
-    if (std::abs(plane.heightOf(point)) > tolerance) continue;
-    scatter.mean += point;
+  for (const Sample& sample : samples) {
+    if (!liesOn(sample, plane, tolerance)) continue;
+    scatter.mean += sample.point;
     ++scatter.count;
   }
   if (scatter.count == 0) return scatter;
   scatter.mean /= static_cast<double>(scatter.count);
-  for (const glm::dvec3& point : points) {
-    if (std::abs(plane.heightOf(point)) > tolerance) continue;
-    const glm::dvec3 d = point - scatter.mean;
+  for (const Sample& sample : samples) {
+    if (!liesOn(sample, plane, tolerance)) continue;
+    const glm::dvec3 d = sample.point - scatter.mean;
     scatter.covariance += glm::outerProduct(d, d);
   }
   scatter.covariance /= static_cast<double>(scatter.count);
@@ -78,8 +120,13 @@ glm::dvec3 thinDirection(const Scatter& scatter, glm::dvec3 normal) {
   return normal;
 }
 
-/// Width of the points across the plane in its narrow direction, as if spread evenly [mm].
-double narrowExtent(const Scatter& scatter, const glm::dvec3& normal) {
+/// Length and width of the points in the plane, as if spread evenly [mm].
+struct Extent {
+  double length_mm;
+  double width_mm;
+};
+
+Extent extentIn(const Scatter& scatter, const glm::dvec3& normal) {
   const glm::dvec3 helper = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 a = glm::normalize(glm::cross(normal, helper));
   const glm::dvec3 b = glm::cross(normal, a);
@@ -87,79 +134,78 @@ double narrowExtent(const Scatter& scatter, const glm::dvec3& normal) {
   const double ab = glm::dot(a, scatter.covariance * b);
   const double bb = glm::dot(b, scatter.covariance * b);
   const double spread = std::sqrt(std::max(0.0, 0.25 * (aa - bb) * (aa - bb) + ab * ab));
-  return std::sqrt(12.0 * std::max(0.0, 0.5 * (aa + bb) - spread));
+  const double middle = 0.5 * (aa + bb);
+  return {std::sqrt(12.0 * (middle + spread)), std::sqrt(12.0 * std::max(0.0, middle - spread))};
 }
 
-/// The plane through three random points that most points lie on, fitted to them; wall candidates stand
-/// on `floor`.
-BackgroundPlane bestPlane(const Points& points,
+/// The plane through three random samples that most samples lie on, fitted to them; walls stand on `floor`.
+BackgroundPlane bestPlane(const Samples& samples,
                           const BackgroundPlane* floor,
                           bool orthographic,
                           double tolerance,
+                          double max_behind,
                           std::mt19937_64& random) {
-  const std::size_t stride = std::max<std::size_t>(1, points.size() / kTrialSamples);
-  const auto pick = [&](std::size_t around, std::size_t reach) {
-    const std::size_t low = around > reach ? around - reach : 0;
-    const std::size_t high = std::min(points.size() - 1, around + reach);
-    return low + static_cast<std::size_t>(random() % (high - low + 1));
+  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kTrialSamples);
+  const double max_behind_of_tried = max_behind / static_cast<double>(stride);
+  const auto pick = [&]() -> const Sample& {
+    return samples[static_cast<std::size_t>(random() % samples.size())];
   };
   BackgroundPlane best;
   int best_count = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    // Points of neighbouring rows are near each other: half of the triples are local, so that a floor
-    // of which little is seen has a chance.
-    const std::size_t reach = trial % 2 == 0 ? points.size() : points.size() / 12 + 3;
-    const std::size_t i = pick(0, points.size());
-    const glm::dvec3& a = points[i];
-    const glm::dvec3 normal = glm::cross(points[pick(i, reach)] - a, points[pick(i, reach)] - a);
+    const Sample& a = pick();
+    const Sample& b = pick();
+    const Sample& c = pick();
+    const glm::dvec3 normal = glm::cross(b.point - a.point, c.point - a.point);
     const double length = glm::length(normal);
     if (length < 1e-9) continue;
-    const BackgroundPlane plane = facingCamera(normal / length, a, orthographic);
+    const BackgroundPlane plane = facingCamera(normal / length, a.point, orthographic);
+    // Most triples lie on several surfaces: their slopes give them away before anything is counted.
+    if (!liesOn(a, plane, tolerance) || !liesOn(b, plane, tolerance) || !liesOn(c, plane, tolerance)) continue;
     if (floor != nullptr && std::abs(glm::dot(plane.normal, floor->normal)) > kMaxWallCos) continue;
-    const int count = countNear(points, plane, tolerance, stride);
+    const int count = countOn(samples, plane, tolerance, stride, max_behind_of_tried);
     if (count > best_count) {
       best_count = count;
       best = plane;
     }
   }
   for (int round = 0; round < 3 && best_count > 0; ++round) {
-    const Scatter scatter = scatterNear(points, best, tolerance);
+    const Scatter scatter = scatterOn(samples, best, tolerance);
     if (scatter.count < 3) break;
     best = facingCamera(thinDirection(scatter, best.normal), scatter.mean, orthographic);
   }
   return best;
 }
 
-double shareBehind(const Points& points, const BackgroundPlane& plane, double tolerance) {
-  const auto behind = std::count_if(points.begin(), points.end(), [&](const glm::dvec3& point) {
-    return plane.heightOf(point) < -tolerance;
-  });
-  return static_cast<double>(behind) / static_cast<double>(points.size());
-}
-
 }  // namespace
 
 std::vector<BackgroundPlane> findBackground(const DepthImage& image, const ForegroundOptions& options) {
-  const Points all = sampled(image);
+  Samples rest = sampled(image, options.part_mm);
+  const double total = static_cast<double>(rest.size());
   std::vector<BackgroundPlane> planes;
-  Points rest = all;
   std::mt19937_64 random(20100);
-  const double total = static_cast<double>(all.size());
   while (static_cast<int>(planes.size()) < options.max_planes && rest.size() > 50) {
     const bool is_floor = planes.empty();
-    const BackgroundPlane plane = bestPlane(rest, is_floor ? nullptr : &planes.front(),
-                                            image.camera.orthographic, options.tolerance_mm, random);
-    const Scatter scatter = scatterNear(rest, plane, options.tolerance_mm);
-    const double share = scatter.count / total;
-    if (share < (is_floor ? options.min_floor_share : options.min_wall_share)) break;
-    const double min_extent = (is_floor ? 1.2 : 0.3) * options.part_mm;
-    const bool large = narrowExtent(scatter, plane.normal) >= min_extent;
-    const bool last = shareBehind(rest, plane, 3.0 * options.tolerance_mm) * static_cast<double>(rest.size()) <=
-                      options.max_behind * total;
-    if (!large || !last) break;
+    const BackgroundPlane plane = bestPlane(rest,
+                                            is_floor ? nullptr : &planes.front(),
+                                            image.camera.orthographic,
+                                            options.tolerance_mm,
+                                            options.max_behind * total,
+                                            random);
+    const Scatter scatter = scatterOn(rest, plane, options.tolerance_mm);
+    if (scatter.count < total * (is_floor ? options.min_floor_share : options.min_wall_share)) break;
+    const Extent extent = extentIn(scatter, plane.normal);
+    const double scale = options.part_mm;
+    if (extent.length_mm < (is_floor ? 1.3 : 0.7) * scale) break;
+    if (extent.width_mm < (is_floor ? 0.4 : 0.25) * scale) break;
+    const auto above = std::count_if(rest.begin(), rest.end(), [&](const Sample& sample) {
+      return plane.heightOf(sample.point) > 3.0 * options.tolerance_mm;
+    });
+    // A plane with nothing on it may be the parts themselves: flat ones, their table cut away.
+    if (static_cast<double>(above) < options.min_above * total) break;
     planes.push_back(plane);
-    std::erase_if(rest, [&](const glm::dvec3& point) {
-      return plane.heightOf(point) <= 1.5 * options.tolerance_mm;
+    std::erase_if(rest, [&](const Sample& sample) {
+      return plane.heightOf(sample.point) <= 1.5 * options.tolerance_mm;
     });
   }
   return planes;

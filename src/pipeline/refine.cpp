@@ -39,6 +39,17 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
+/// Of two poses that fit equally well the one that explains more of the scene is the better explanation: a
+/// part's face alone can be laid on many surfaces.
+double rankOf(const CheckResult& check, const ReferenceObject& object) {
+  double mean_area_px = 0.0;
+  for (const ReferenceView& view : object.views) mean_area_px += static_cast<double>(view.area_px);
+  mean_area_px /= static_cast<double>(object.views.size());
+  const double mean_mm2 = mean_area_px * object.pixel_mm * object.pixel_mm;
+  static double ex = getenv("AEXP") ? atof(getenv("AEXP")) : 0.5;
+  return check.score * std::pow(check.explained_mm2 / mean_mm2, ex);
+}
+
 void refineOne(Candidate& candidate,
                const ReferenceObject& object,
                const RefineScene& scene,
@@ -61,6 +72,7 @@ void refineOne(Candidate& candidate,
   }
   const Image<SurfaceTexel> surface = render(window);
   candidate.check = host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
+  candidate.rank = rankOf(candidate.check, object);
 }
 
 }  // namespace
@@ -91,7 +103,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
         return distanceBetween(object, other.rough, pose) < kSame;
       });
-      if (!known) kept.push_back({object_index, hypothesis.view, hypothesis.error, pose, pose, {}});
+      if (!known) kept.push_back({object_index, hypothesis.view, hypothesis.error, pose, pose, {}, 0.0});
     }
   }
   return kept;
@@ -110,8 +122,11 @@ void refineCoarsely(std::vector<Candidate>& candidates,
       candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.rough,
                                  object.center_mm, object.radius_mm, options)
                            .camera_from_object;
-      candidate.check = host::checkPoints(points, candidate.pose, scene.depth,
+      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
+      const double visible_mm2 = static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
+      candidate.check = host::checkPoints(points, candidate.pose, visible_mm2, scene.depth,
                                           checkOptionsFor(object, scene.noise_mm));
+      candidate.rank = rankOf(candidate.check, object);
     }
   });
 }
@@ -121,7 +136,7 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
                                     int count) {
   constexpr double kSame = 0.03;
   std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.check.score > b.check.score;
+    return a.rank > b.rank;
   });
   std::vector<Candidate> best;
   for (const Candidate& candidate : candidates) {
@@ -132,6 +147,28 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
     });
     if (!known) best.push_back(candidate);
   }
+  return best;
+}
+
+std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates, const ReferenceDatabase& database) {
+  constexpr double kSamePlace = 0.5;  // of the larger diameter
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.rank > b.rank;
+  });
+  std::vector<Candidate> best;
+  for (const Candidate& candidate : candidates) {
+    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+    const glm::dvec3 center = candidate.pose * object.center_mm;
+    const bool taken = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
+      const ReferenceObject& owner = database.objects[static_cast<std::size_t>(other.object)];
+      const double reach = kSamePlace * std::max(object.diameter_mm, owner.diameter_mm);
+      return glm::distance(center, other.pose * owner.center_mm) < reach;
+    });
+    if (!taken) best.push_back(candidate);
+  }
+  std::stable_sort(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
+    return a.check.score > b.check.score;
+  });
   return best;
 }
 

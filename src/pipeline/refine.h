@@ -22,6 +22,7 @@ struct Candidate {
   Pose rough;
   Pose pose;
   CheckResult check;
+  double rank = 0.0;  ///< what candidates are ordered by: score, and how much of the scene it explains
 };
 
 /// The `count` best hypotheses of each window that differ from each other, as poses. `cameras` are those of
@@ -37,6 +38,10 @@ void refineCoarsely(std::vector<Candidate>& candidates, const ReferenceDatabase&
 
 /// The `count` best candidates that differ from each other, best first.
 std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates, const ReferenceDatabase& database, int count);
+
+/// The candidate with the largest rank in each place, best score first: poses in one place compete to explain the
+/// same data, poses in different places may all be right and are ordered by how sure they are.
+std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates, const ReferenceDatabase& database);
 
 /// Renders each candidate at the sensor's resolution, aligns the visible part, and checks the result.
 void refineFinely(std::vector<Candidate>& candidates,

@@ -3,54 +3,95 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <unordered_map>
 
 namespace rangepose {
 namespace {
 
-struct Patch {
-  int pixels = 0;
-  double range_sum = 0.0;
-  float largest = 0.0f;
-  int tied = 0;
-  double tied_x = 0.0;
-  double tied_y = 0.0;
-  Seed seed;
-  double nearest_sq = std::numeric_limits<double>::max();
+constexpr int kMaxStartsPerPatch = 16;
+
+struct Pixel {
+  int x;
+  int y;
+  float range_px;
+  float distance_px;
 };
+using Patch = std::vector<Pixel>;
 
-void addPixel(Patch& patch, int x, int y, float range, float distance) {
-  ++patch.pixels;
-  patch.range_sum += static_cast<double>(range);
-  if (distance < patch.largest) return;
-  if (distance > patch.largest) {
-    patch.largest = distance;
-    patch.tied = 0;
-    patch.tied_x = 0.0;
-    patch.tied_y = 0.0;
-  }
-  ++patch.tied;
-  patch.tied_x += x;
-  patch.tied_y += y;
-}
-
-void offerSeed(Patch& patch, int x, int y, float range, float distance) {
-  if (distance != patch.largest) return;
-  const double dx = x - patch.tied_x / patch.tied;
-  const double dy = y - patch.tied_y / patch.tied;
-  const double squared = dx * dx + dy * dy;
-  if (squared >= patch.nearest_sq) return;
-  patch.nearest_sq = squared;
-  patch.seed = {static_cast<float>(x), static_cast<float>(y), range, distance, 0.0f, 0};
-}
-
-template <typename Visit>
-void forEachPixel(const SceneChannels& scene, const Image<std::int32_t>& labels, const Visit& visit) {
+/// Patches in the order of their first pixels.
+std::vector<Patch> collectPatches(const SceneChannels& scene, const Image<std::int32_t>& labels) {
+  std::vector<Patch> patches;
+  std::unordered_map<std::int32_t, std::size_t> index;
   for (int y = 0; y < labels.height(); ++y) {
     for (int x = 0; x < labels.width(); ++x) {
       const std::int32_t label = labels.at(x, y);
-      if (label != kNoPatch) visit(label, x, y, scene.range_px.at(x, y), scene.distance_px.at(x, y));
+      if (label == kNoPatch) continue;
+      const std::size_t at = index.try_emplace(label, patches.size()).first->second;
+      if (at == patches.size()) patches.emplace_back();
+      patches[at].push_back({x, y, scene.range_px.at(x, y), scene.distance_px.at(x, y)});
     }
+  }
+  return patches;
+}
+
+float squaredDistance(const Pixel& pixel, float x, float y) {
+  const float dx = static_cast<float>(pixel.x) - x;
+  const float dy = static_cast<float>(pixel.y) - y;
+  return dx * dx + dy * dy;
+}
+
+/// The most inner pixel of a patch that is not empty.
+Pixel mostInner(const Patch& patch) {
+  float largest = std::numeric_limits<float>::lowest();
+  for (const Pixel& pixel : patch) largest = std::max(largest, pixel.distance_px);
+  float x = 0.0f;
+  float y = 0.0f;
+  float tied = 0.0f;
+  for (const Pixel& pixel : patch) {
+    if (pixel.distance_px != largest) continue;
+    x += static_cast<float>(pixel.x);
+    y += static_cast<float>(pixel.y);
+    tied += 1.0f;
+  }
+  x /= tied;
+  y /= tied;
+  Pixel best{};
+  float nearest = std::numeric_limits<float>::max();
+  for (const Pixel& pixel : patch) {
+    if (pixel.distance_px != largest || squaredDistance(pixel, x, y) >= nearest) continue;
+    nearest = squaredDistance(pixel, x, y);
+    best = pixel;
+  }
+  return best;
+}
+
+float meanRange(const Patch& patch, const Pixel& around, float radius_px) {
+  double sum = 0.0;
+  int count = 0;
+  for (const Pixel& pixel : patch) {
+    const float x = static_cast<float>(around.x);
+    const float y = static_cast<float>(around.y);
+    if (squaredDistance(pixel, x, y) > radius_px * radius_px) continue;
+    sum += static_cast<double>(pixel.range_px);
+    ++count;
+  }
+  return static_cast<float>(sum / count);
+}
+
+void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Seed>& seeds) {
+  const int size = static_cast<int>(patch.size());
+  const bool several = size > options.max_patch_px;
+  const float around_px = several ? 0.5f * options.apart_px : std::numeric_limits<float>::max();
+  Patch rest = patch;
+  for (int i = 0; i < (several ? kMaxStartsPerPatch : 1) && !rest.empty(); ++i) {
+    const Pixel inner = mostInner(rest);
+    if (i > 0 && inner.distance_px < options.min_distance_px) return;
+    const float x = static_cast<float>(inner.x);
+    const float y = static_cast<float>(inner.y);
+    seeds.push_back({x, y, inner.range_px, inner.distance_px, meanRange(patch, inner, around_px), size});
+    std::erase_if(rest, [&](const Pixel& pixel) {
+      return squaredDistance(pixel, x, y) < options.apart_px * options.apart_px;
+    });
   }
 }
 
@@ -59,22 +100,13 @@ void forEachPixel(const SceneChannels& scene, const Image<std::int32_t>& labels,
 std::vector<Seed> findSeeds(const SceneChannels& scene,
                             const Image<std::int32_t>& labels,
                             const SeedOptions& options) {
-  std::map<std::int32_t, Patch> patches;
-  forEachPixel(scene, labels, [&](std::int32_t label, int x, int y, float range, float distance) {
-    addPixel(patches[label], x, y, range, distance);
-  });
-  forEachPixel(scene, labels, [&](std::int32_t label, int x, int y, float range, float distance) {
-    offerSeed(patches[label], x, y, range, distance);
-  });
+  std::vector<Seed> all;
+  for (const Patch& patch : collectPatches(scene, labels)) addSeeds(patch, options, all);
   std::vector<Seed> seeds;
-  std::vector<Seed> small;
-  for (auto& [label, patch] : patches) {
-    patch.seed.mean_range_px = static_cast<float>(patch.range_sum / patch.pixels);
-    patch.seed.patch_px = patch.pixels;
-    const bool large = patch.pixels >= options.min_patch_px && patch.largest >= options.min_distance_px;
-    (large ? seeds : small).push_back(patch.seed);
-  }
-  if (seeds.empty()) seeds = small;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(seeds), [&](const Seed& seed) {
+    return seed.patch_px >= options.min_patch_px && seed.distance_px >= options.min_distance_px;
+  });
+  if (seeds.empty()) seeds = all;
   std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
     return a.mean_range_px < b.mean_range_px;
   });

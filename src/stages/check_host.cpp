@@ -44,7 +44,9 @@ struct Tally {
   double explained = 0.0;
   double contradicted = 0.0;
   double hidden = 0.0;
+  double buried = 0.0;
   double missing = 0.0;
+  double weak = 0.0;
   double residual_mm = 0.0;
   double agreeing = 0.0;
   int pixels = 0;
@@ -69,7 +71,8 @@ void judgePixel(const SurfaceTexel& model,
   // Along the model's normal a depth difference on a slope is smaller than along the ray.
   const double distance = std::abs(gap) * std::max(0.3, static_cast<double>(std::abs(model.z)));
   if (distance > options.tolerance_mm) {
-    (gap > 0.0 ? tally.contradicted : tally.hidden) += 1.0;
+    const bool just = distance <= options.buried_tolerances * options.tolerance_mm;
+    (gap > 0.0 ? tally.contradicted : just ? tally.buried : tally.hidden) += 1.0;
     return;
   }
   const double ratio = distance / options.tolerance_mm;
@@ -78,7 +81,7 @@ void judgePixel(const SurfaceTexel& model,
     if (glm::dot(*normal, glm::dvec3(model)) < std::cos(options.max_tilt_rad)) agreement *= 0.3;
   }
   tally.explained += agreement;
-  tally.contradicted += 1.0 - agreement;
+  tally.weak += 1.0 - agreement;
   tally.residual_mm += distance;
   tally.agreeing += 1.0;
 }
@@ -95,8 +98,8 @@ void judgeBorder(const Image<SurfaceTexel>& surface,
   constexpr int kOut = 2;
   const double model = static_cast<double>(surface.at(x, y).w);
   const double inside = measured.at(window.x0 + x * window.step, window.y0 + y * window.step);
-  // Only where the outline itself is seen: behind nearer data nothing can be said.
-  if (inside != 0.0 && inside < model - options.tolerance_mm) return;
+  // Behind nearer data nothing can be said: it counts half.
+  const bool covered = inside != 0.0 && inside < model - options.tolerance_mm;
   for (const auto& [dx, dy] : kDirections) {
     const int near_x = x + dx;
     const int near_y = y + dy;
@@ -104,6 +107,10 @@ void judgeBorder(const Image<SurfaceTexel>& surface,
     const double outside = measured.at(window.x0 + (x + kOut * dx) * window.step,
                                        window.y0 + (y + kOut * dy) * window.step);
     tally.border += 1.0;
+    if (covered) {
+      tally.border_ends += 0.5;
+      continue;
+    }
     // Nearer data may cover the outline; farther or missing data ends the surface.
     if (outside == 0.0 || outside > model + 1.5 * options.tolerance_mm) {
       tally.border_ends += 1.0;
@@ -114,7 +121,10 @@ void judgeBorder(const Image<SurfaceTexel>& surface,
 }
 
 /// Shares and score; `outline_factor` is what the outline leaves of the score.
-CheckResult summarize(const Tally& tally, const CheckOptions& options, double outline_factor) {
+CheckResult summarize(const Tally& tally,
+                      const CheckOptions& options,
+                      double outline_factor,
+                      double visible_mm2) {
   CheckResult result;
   result.pixels = tally.pixels;
   if (tally.pixels == 0) return result;
@@ -122,10 +132,14 @@ CheckResult summarize(const Tally& tally, const CheckOptions& options, double ou
   result.explained = tally.explained / all;
   result.contradicted = tally.contradicted / all;
   result.hidden = tally.hidden / all;
+  result.buried = tally.buried / all;
   result.missing = tally.missing / all;
+  result.weak = tally.weak / all;
+  result.explained_mm2 = result.explained * visible_mm2;
   result.residual_mm = tally.agreeing > 0.0 ? tally.residual_mm / tally.agreeing : 0.0;
   const double against = options.contradicted * result.contradicted + options.missing * result.missing +
-                         options.hidden * result.hidden;
+                         options.hidden * result.hidden + options.buried * result.buried +
+                         options.weak * result.weak;
   result.score = result.explained / std::max(result.explained + against, 1e-9) * outline_factor;
   return result;
 }
@@ -139,23 +153,28 @@ CheckResult check(const Image<SurfaceTexel>& surface,
   const Measured measured(depth, options.tolerance_mm);
   const int normal_reach = std::max(2, window.step);
   Tally tally;
+  double visible_mm2 = 0.0;
   for (int y = 0; y < surface.height(); ++y) {
     for (int x = 0; x < surface.width(); ++x) {
       const SurfaceTexel& texel = surface.at(x, y);
       if (texel.w <= 0.0f) continue;
+      const double width_mm = window.step * depth.camera.pixelSpacingMm(static_cast<double>(texel.w));
+      visible_mm2 += width_mm * width_mm;
       judgePixel(texel, measured, window.x0 + x * window.step, window.y0 + y * window.step, normal_reach,
                  options, tally);
       judgeBorder(surface, window, measured, x, y, options, tally);
     }
   }
   const double outline = tally.border > 0.0 ? tally.border_ends / tally.border : 0.0;
-  CheckResult result = summarize(tally, options, 1.0 - options.border + options.border * outline);
+  CheckResult result =
+      summarize(tally, options, 1.0 - options.border + options.border * outline, visible_mm2);
   result.outline = outline;
   return result;
 }
 
 CheckResult checkPoints(const std::vector<SurfacePoint>& points,
                         const Pose& camera_from_object,
+                        double visible_mm2,
                         const DepthImage& depth,
                         const CheckOptions& options) {
   constexpr int kNormalReach = 2;
@@ -175,7 +194,7 @@ CheckResult checkPoints(const std::vector<SurfacePoint>& points,
     judgePixel(SurfaceTexel(normal, static_cast<float>(point.z)), measured, static_cast<int>(pixel.x),
                static_cast<int>(pixel.y), kNormalReach, options, tally);
   }
-  return summarize(tally, options, 1.0);
+  return summarize(tally, options, 1.0, visible_mm2);
 }
 
 }  // namespace rangepose::host

@@ -45,7 +45,8 @@ struct ReferenceObject {
   int columns() const { return size > 0 ? atlas.width() / size : 0; }
   /// Upper left pixel of the tile of view `index` in the atlas.
   glm::ivec2 tileOrigin(int index) const {
-    return {index % columns() * size, index / columns() * size};
+    const int per_row = columns() > 0 ? columns() : 1;
+    return {index % per_row * size, index / per_row * size};
   }
   float maxArea() const;
 };

@@ -102,7 +102,8 @@ TEST(ContextDeathTest, WithoutADriverSaysWhatToInstall) {
     }
     std::_Exit(0);
   };
-  EXPECT_EXIT(open(), testing::ExitedWithCode(3), "no headless OpenGL ES.*libegl1.*libgl1-mesa-dri");
+  EXPECT_EXIT(
+      open(), testing::ExitedWithCode(3), "no headless OpenGL ES.*libegl1.*libgl1-mesa-dri");
 }
 
 TEST(EglExtensions, AreMatchedAsWholeWords) {

@@ -61,9 +61,7 @@ TEST(ShaderLibrary, EmbedsTheTextAsItIsOnDisk) {
   }
 }
 
-TEST(ShaderLibrary, UnknownNamesAreAnError) {
-  EXPECT_THROW(shaderText("nothing.frag"), Error);
-}
+TEST(ShaderLibrary, UnknownNamesAreAnError) { EXPECT_THROW(shaderText("nothing.frag"), Error); }
 
 using ProgramTest = test::GlesFixture;
 
@@ -78,7 +76,8 @@ std::string messageOf(Context& context,
                       const std::string& fragment,
                       const std::vector<ShaderText>& chunks) {
   try {
-    const Program program(context, {"good.vert", kVertex}, {"broken.frag", fragment}, chunks, {{"RP_X", "1"}});
+    const Program program(
+        context, {"good.vert", kVertex}, {"broken.frag", fragment}, chunks, {{"RP_X", "1"}});
   } catch (const Error& error) {
     return error.what();
   }
@@ -87,16 +86,20 @@ std::string messageOf(Context& context,
 
 TEST_F(ProgramTest, ABrokenShaderIsNamedWithItsLine) {
   const std::string message = messageOf(
-      context(), "layout(location = 0) out highp vec4 o_color;\n\nvoid main() { o_color = nonsense; }\n", {});
+      context(),
+      "layout(location = 0) out highp vec4 o_color;\n\nvoid main() { o_color = nonsense; }\n",
+      {});
   EXPECT_THAT(message, HasSubstr("broken.frag:3"));
   EXPECT_THAT(message, HasSubstr("nonsense"));
   EXPECT_EQ(message.find('\n'), std::string::npos);
 }
 
 TEST_F(ProgramTest, ABrokenChunkIsNamedInsteadOfTheBody) {
-  const std::vector<ShaderText> chunks = {{"common/good.glsl", "float one() { return 1.0; }\n"},
-                                          {"common/bad.glsl", "\nfloat two() { return missing; }\n"}};
-  // Both stages hold the chunks, so the vertex shader fails first; the message still names the chunk.
+  const std::vector<ShaderText> chunks = {
+      {"common/good.glsl", "float one() { return 1.0; }\n"},
+      {"common/bad.glsl", "\nfloat two() { return missing; }\n"}};
+  // Both stages hold the chunks, so the vertex shader fails first; the message still names the
+  // chunk.
   EXPECT_THAT(messageOf(context(), kFragment, chunks), HasSubstr("common/bad.glsl:2"));
 }
 

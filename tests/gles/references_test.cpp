@@ -1,11 +1,10 @@
-#include "gles/references_gles.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "core/error.h"
+#include "gles/references_gles.h"
 #include "stages/channels_host.h"
 #include "support/backends.h"
 #include "support/box_mesh.h"
@@ -19,10 +18,13 @@ using test::Box;
 using test::Hit;
 
 /// What the formula says that the view shows at (u, v) of its tile, in pixels.
-Hit expectedAt(const ReferenceObject& object, const std::vector<Box>& boxes, int view, double u, double v) {
-  const glm::dmat3 object_from_view = glm::transpose(object.views[static_cast<std::size_t>(view)].rotation);
+Hit expectedAt(
+    const ReferenceObject& object, const std::vector<Box>& boxes, int view, double u, double v) {
+  const glm::dmat3 object_from_view =
+      glm::transpose(object.views[static_cast<std::size_t>(view)].rotation);
   const double half = 0.5 * object.size;
-  const glm::dvec3 start = glm::dvec3(u + 0.5 - half, v + 0.5 - half, -object.size) * object.pixel_mm;
+  const glm::dvec3 start =
+      glm::dvec3(u + 0.5 - half, v + 0.5 - half, -object.size) * object.pixel_mm;
   Hit hit = test::hitBoxes(boxes,
                            object_from_view * start + object.center_mm,
                            object_from_view * glm::dvec3(0.0, 0.0, 1.0));
@@ -31,7 +33,8 @@ Hit expectedAt(const ReferenceObject& object, const std::vector<Box>& boxes, int
 }
 
 /// Whether another face, or none, is seen a little beside the pixel's centre.
-bool onBorder(const ReferenceObject& object, const std::vector<Box>& boxes, int view, int u, int v) {
+bool onBorder(
+    const ReferenceObject& object, const std::vector<Box>& boxes, int view, int u, int v) {
   const Hit here = expectedAt(object, boxes, view, u, v);
   for (const double du : {-test::kRasterPx, test::kRasterPx}) {
     for (const double dv : {-test::kRasterPx, test::kRasterPx}) {
@@ -49,7 +52,8 @@ Image<float> rangeOfTile(const ReferenceObject& object, int view) {
   Image<float> range(object.size, object.size);
   const glm::ivec2 origin = object.tileOrigin(view);
   for (int v = 0; v < object.size; ++v) {
-    for (int u = 0; u < object.size; ++u) range.at(u, v) = object.atlas.at(origin.x + u, origin.y + v).g;
+    for (int u = 0; u < object.size; ++u)
+      range.at(u, v) = object.atlas.at(origin.x + u, origin.y + v).g;
   }
   return range;
 }
@@ -71,9 +75,11 @@ TEST_F(ReferencesTest, RangeAndCosineFollowTheFormulaOfABracket) {
           ASSERT_EQ(texel.g, 0.0f);
           continue;
         }
-        ASSERT_NEAR(texel.a, expected.cosine, test::kReferenceCosine) << view << ": " << u << ", " << v;
+        ASSERT_NEAR(texel.a, expected.cosine, test::kReferenceCosine)
+            << view << ": " << u << ", " << v;
         if (expected.cosine < 0.25) continue;
-        ASSERT_NEAR(texel.g, expected.distance, test::kReferenceRangePx) << view << ": " << u << ", " << v;
+        ASSERT_NEAR(texel.g, expected.distance, test::kReferenceRangePx)
+            << view << ": " << u << ", " << v;
         ++compared;
       }
     }
@@ -139,7 +145,8 @@ TEST_F(ReferencesTest, EdgesAndDistancesAreThoseOfTheHostOnEachTile) {
         for (int u = 0; u < size; ++u) {
           const ReferenceTexel texel = object.atlas.at(origin.x + u, origin.y + v);
           ASSERT_EQ(texel.b, edges.at(u, v)) << size << " view " << view << ": " << u << ", " << v;
-          ASSERT_FLOAT_EQ(texel.r, distance.at(u, v)) << size << " view " << view << ": " << u << ", " << v;
+          ASSERT_FLOAT_EQ(texel.r, distance.at(u, v))
+              << size << " view " << view << ": " << u << ", " << v;
         }
       }
     }

@@ -27,7 +27,8 @@ TEST_F(TextureTest, FloatsComeBackBitByBit) {
 TEST_F(TextureTest, VectorsComeBackBitByBitAndNotFlipped) {
   Image<glm::vec4> image(5, 3);
   for (int y = 0; y < 3; ++y) {
-    for (int x = 0; x < 5; ++x) image.at(x, y) = glm::vec4(x, y, 0.1f * static_cast<float>(x), -1.0f);
+    for (int x = 0; x < 5; ++x)
+      image.at(x, y) = glm::vec4(x, y, 0.1f * static_cast<float>(x), -1.0f);
   }
   EXPECT_EQ(downloadVectors(Texture(image)), image);
 }

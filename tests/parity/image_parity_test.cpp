@@ -17,7 +17,8 @@ constexpr float kThresholdPx = 2.56f;
 
 TEST_F(ImageParity, MedianIsBitExact) {
   for (const RangeScene& scene : awkwardScenes()) {
-    EXPECT_EQ(differences(subject().median(scene.range_px), host().median(scene.range_px)), 0) << scene.name;
+    EXPECT_EQ(differences(subject().median(scene.range_px), host().median(scene.range_px)), 0)
+        << scene.name;
   }
 }
 
@@ -72,10 +73,14 @@ TEST_F(ImageParity, DistancesAgreeToTheRootsRounding) {
 TEST_F(ImageParity, PatchLabelsAreEqual) {
   for (const RangeScene& scene : awkwardScenes()) {
     const Image<float> edges = host().edges(scene.range_px, kThresholdPx);
-    EXPECT_EQ(differences(subject().patches(scene.range_px, edges), host().patches(scene.range_px, edges)), 0)
+    EXPECT_EQ(differences(subject().patches(scene.range_px, edges),
+                          host().patches(scene.range_px, edges)),
+              0)
         << scene.name;
     const Image<float> none(scene.range_px.width(), scene.range_px.height(), 0.0f);
-    EXPECT_EQ(differences(subject().patches(scene.range_px, none), host().patches(scene.range_px, none)), 0)
+    EXPECT_EQ(
+        differences(subject().patches(scene.range_px, none), host().patches(scene.range_px, none)),
+        0)
         << scene.name << " without edges";
   }
 }

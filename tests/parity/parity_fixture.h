@@ -14,7 +14,8 @@
 
 namespace rangepose::test {
 
-/// Each test must have drawn something: a path that quietly falls back to the host compares it with itself.
+/// Each test must have drawn something: a path that quietly falls back to the host compares it with
+/// itself.
 class Parity : public GlesFixture {
  protected:
   void SetUp() override {
@@ -41,7 +42,8 @@ class Parity : public GlesFixture {
 inline std::int64_t ulpsBetween(float a, float b) {
   const auto ordered = [](float value) {
     const auto bits = std::bit_cast<std::int32_t>(value);
-    return bits < 0 ? -static_cast<std::int64_t>(bits & 0x7fffffff) : static_cast<std::int64_t>(bits);
+    return bits < 0 ? -static_cast<std::int64_t>(bits & 0x7fffffff)
+                    : static_cast<std::int64_t>(bits);
   };
   return std::llabs(ordered(a) - ordered(b));
 }

@@ -26,7 +26,8 @@ DepthImage depthImage(int width, int height, unsigned seed, bool orthographic) {
 }
 
 /// A camera that looks along the middle of the image, a little turned.
-OrthoCamera orthoCamera(const DepthImage& image, int width, int height, double pixel_mm, double turn) {
+OrthoCamera orthoCamera(
+    const DepthImage& image, int width, int height, double pixel_mm, double turn) {
   OrthoCamera camera;
   camera.width = width;
   camera.height = height;

@@ -26,7 +26,10 @@ SceneChannels channelsOf(const Image<float>& range) {
 }
 
 /// A window that shows a view with its anchor at the centre, in front of a few other surfaces.
-SceneChannels windowWith(const ReferenceObject& object, int view, float shift_range, unsigned seed) {
+SceneChannels windowWith(const ReferenceObject& object,
+                         int view,
+                         float shift_range,
+                         unsigned seed) {
   const int width = kWindowScale * object.size;
   Image<float> range = test::randomBlobs(width, width, seed);
   for (float& value : range) value = value == 0.0f ? 0.0f : value + 200.0f;
@@ -66,6 +69,7 @@ TEST_F(SearchParity, ErrorSumsAgree) {
       ErrorOptions options;
       options.holes = holes;
       std::vector<glm::vec3> translations;
+      translations.reserve(30);
       for (int i = 0; i < 30; ++i) {
         // Some beyond the largest shift, some that read past the window.
         translations.emplace_back(random.uniform(-0.8, 0.8) * size,
@@ -73,15 +77,17 @@ TEST_F(SearchParity, ErrorSumsAgree) {
                                   random.uniform(40.0, 80.0) + size);
       }
       translations[0] = {-0.5f, 0.5f, 57.0f};
-      const std::vector<ErrorTerms> expected = host().errorTerms(object, window, translations, options);
-      const std::vector<ErrorTerms> actual = subject().errorTerms(object, window, translations, options);
+      const std::vector<ErrorTerms> expected =
+          host().errorTerms(object, window, translations, options);
+      const std::vector<ErrorTerms> actual =
+          subject().errorTerms(object, window, translations, options);
       ASSERT_EQ(actual.size(), expected.size());
       int counted = 0;
       for (std::size_t i = 0; i < expected.size(); ++i) {
         expectNear(actual[i],
                    expected[i],
-                   "size " + std::to_string(size) + ", holes " + std::to_string(static_cast<int>(holes)) +
-                       ", view " + std::to_string(i));
+                   "size " + std::to_string(size) + ", holes " +
+                       std::to_string(static_cast<int>(holes)) + ", view " + std::to_string(i));
         counted += expected[i].cover_count > 0.0f ? 1 : 0;
       }
       EXPECT_GT(counted, 20);
@@ -109,7 +115,8 @@ std::int64_t farthest(const SimplexPoint& a, const SimplexPoint& b) {
 }
 
 std::int64_t farthest(const SimplexState& a, const SimplexState& b) {
-  std::int64_t ulps = std::max(farthest(a.reflected, b.reflected), farthest(a.candidate, b.candidate));
+  std::int64_t ulps =
+      std::max(farthest(a.reflected, b.reflected), farthest(a.candidate, b.candidate));
   for (int i = 0; i < 4; ++i) ulps = std::max(ulps, farthest(a.vertex[i], b.vertex[i]));
   return ulps;
 }
@@ -154,7 +161,8 @@ TEST_F(SearchParity, ReplayedSimplexStepsAreExact) {
   for (std::size_t phase = 0; phase < seen.size(); ++phase) {
     EXPECT_GT(seen[phase], 0) << "phase " << phase << " was never replayed";
   }
-  for (const SimplexState& state : states) EXPECT_EQ(state.phase, static_cast<int>(SimplexPhase::kDone));
+  for (const SimplexState& state : states)
+    EXPECT_EQ(state.phase, static_cast<int>(SimplexPhase::kDone));
 }
 
 const Hypothesis& best(const std::vector<Hypothesis>& all, int window) {
@@ -181,14 +189,17 @@ TEST_F(SearchParity, TheWholeSearchFindsTheSameErrors) {
   }
   const auto pointers = [](const auto& scenes) {
     std::vector<const ResidentScene*> result;
+    result.reserve(scenes.size());
     for (const auto& scene : scenes) result.push_back(scene.get());
     return result;
   };
   for (const AreaFactor area : {AreaFactor::kRoot, AreaFactor::kNone}) {
     SearchOptions options;
     options.error.area = area;
-    const std::vector<Hypothesis> expected = host().search(object, pointers(on_host), seeds, options);
-    const std::vector<Hypothesis> actual = subject().search(object, pointers(on_device), seeds, options);
+    const std::vector<Hypothesis> expected =
+        host().search(object, pointers(on_host), seeds, options);
+    const std::vector<Hypothesis> actual =
+        subject().search(object, pointers(on_device), seeds, options);
     ASSERT_EQ(actual.size(), 2U * kViews);
     ASSERT_EQ(expected.size(), actual.size());
     int turned = 0;
@@ -201,7 +212,8 @@ TEST_F(SearchParity, TheWholeSearchFindsTheSameErrors) {
     EXPECT_LE(turned, static_cast<int>(test::kTurnedShare * static_cast<float>(actual.size())));
     for (int window = 0; window < 2; ++window) {
       const Hypothesis& there = best(actual, window);
-      EXPECT_EQ(there.view, shown[static_cast<std::size_t>(window)]) << "the view that is shown must win";
+      EXPECT_EQ(there.view, shown[static_cast<std::size_t>(window)])
+          << "the view that is shown must win";
       EXPECT_NEAR(there.error,
                   best(expected, window).error,
                   test::kBestErrorRelative * best(expected, window).error);

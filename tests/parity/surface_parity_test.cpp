@@ -35,7 +35,8 @@ Camera orthographic() {
 Pose poseNear(const Mesh& mesh, const Camera& camera, int index) {
   Pose pose;
   pose.rotation = rotationFromVector({0.7 * index, 0.3 - 0.2 * index, 0.11 * index * index});
-  const glm::dvec3 at = camera.unproject(200.0 + 37.0 * index, 300.0 - 23.0 * index, 500.0 + 21.0 * index);
+  const glm::dvec3 at =
+      camera.unproject(200.0 + 37.0 * index, 300.0 - 23.0 * index, 500.0 + 21.0 * index);
   pose.translation_mm = at - pose.rotation * boundingSphere(mesh).center_mm;
   return pose;
 }
@@ -93,10 +94,12 @@ TEST_F(SurfaceParity, DiffersOnlyAtBordersOfFaces) {
         ASSERT_EQ(actual.width(), expected.width());
         ASSERT_EQ(actual.height(), expected.height());
         const Comparison found = compare(actual, expected);
-        const std::string where = "orthographic " + std::to_string(camera.orthographic) + ", pose " +
-                                  std::to_string(index) + ", step " + std::to_string(window.step);
+        const std::string where = "orthographic " + std::to_string(camera.orthographic) +
+                                  ", pose " + std::to_string(index) + ", step " +
+                                  std::to_string(window.step);
         EXPECT_GT(found.seen, max_pixels == 30 ? 40 : 400) << where;
-        EXPECT_LE(found.different, std::ceil(test::kBorderShare * static_cast<float>(found.seen))) << where;
+        EXPECT_LE(found.different, std::ceil(test::kBorderShare * static_cast<float>(found.seen)))
+            << where;
         EXPECT_EQ(found.inside, 0) << where;
       }
     }

@@ -1,4 +1,5 @@
-// Tests that need a back-end: skipped where it is missing, failed where RP_REQUIRE_BACKENDS names it.
+// Tests that need a back-end: skipped where it is missing, failed where RP_REQUIRE_BACKENDS names
+// it.
 #pragma once
 
 #include <gtest/gtest.h>

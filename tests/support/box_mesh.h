@@ -74,7 +74,9 @@ inline Hit hitBox(const Box& box, const glm::dvec3& origin, const glm::dvec3& di
   return {enter, std::abs(direction[axis]), axis};
 }
 
-inline Hit hitBoxes(const std::vector<Box>& boxes, const glm::dvec3& origin, const glm::dvec3& direction) {
+inline Hit hitBoxes(const std::vector<Box>& boxes,
+                    const glm::dvec3& origin,
+                    const glm::dvec3& direction) {
   Hit nearest;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     Hit hit = hitBox(boxes[i], origin, direction);
@@ -95,7 +97,9 @@ inline ReferenceObject objectOf(const std::vector<Box>& boxes, int views, int si
   object.size = size;
   object.pixel_mm = 2.0 * sphere.radius_mm / (size - 4);
   std::mt19937 random(seed);
-  const auto uniform = [&random] { return static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0; };
+  const auto uniform = [&random] {
+    return static_cast<double>(random()) / 4294967296.0 * 2.0 - 1.0;
+  };
   for (int i = 0; i < views; ++i) {
     ReferenceView view;
     view.rotation = rotationFromVector(3.0 * glm::dvec3(uniform(), uniform(), uniform()));

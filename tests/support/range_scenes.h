@@ -50,7 +50,8 @@ inline Image<float> randomBlobs(int width, int height, unsigned seed) {
       }
     }
   }
-  for (int i = 0; i < width * height / 40; ++i) range.at(random.index(width), random.index(height)) = 0.0f;
+  for (int i = 0; i < width * height / 40; ++i)
+    range.at(random.index(width), random.index(height)) = 0.0f;
   return range;
 }
 

@@ -7,24 +7,26 @@ namespace rangepose::test {
 inline constexpr float kErrorSumRelative = 1.0e-4f;
 /// Sums of a handful of pixels [px]: where all of them cancel out, a relative bound says nothing.
 inline constexpr float kErrorSumPx = 1.0e-3f;
-/// Error of the best hypothesis of a search [relative]: one ulp in a value may turn a branch of the simplex,
-/// which then stops at another point within the 5 % spread that it stops at.
+/// Error of the best hypothesis of a search [relative]: one ulp in a value may turn a branch of the
+/// simplex, which then stops at another point within the 5 % spread that it stops at.
 inline constexpr float kBestErrorRelative = 0.02f;
 /// Share of single hypotheses whose simplex may have taken another branch, see above.
 inline constexpr float kTurnedShare = 0.05f;
-/// Rounding of a coordinate in units in the last place: division and square root are correctly rounded on the
-/// host and on software rasterisers; GLSL allows 2.5 ulp for a division.
+/// Rounding of a coordinate in units in the last place: division and square root are correctly
+/// rounded on the host and on software rasterisers; GLSL allows 2.5 ulp for a division.
 inline constexpr int kDeviceUlps = 4;
 
-/// Depth of a rendered face [mm] at 500-700 mm: GL interpolates in float and moves corners to 1/256 px.
+/// Depth of a rendered face [mm] at 500-700 mm: GL interpolates in float and moves corners to 1/256
+/// px.
 inline constexpr float kSurfaceDepthMm = 0.05f;
 /// Component of a unit normal: one rotation in float instead of double.
 inline constexpr float kSurfaceNormal = 1.0e-4f;
-/// Share of pixels that two rasterisers may give to different triangles, all on borders of triangles.
+/// Share of pixels that two rasterisers may give to different triangles, all on borders of
+/// triangles.
 inline constexpr float kBorderShare = 0.02f;
 
-/// Position of a border on the raster [px]: GL moves corners to a grid of 1/256 px, and the crease between two
-/// steep faces by that times their slope.
+/// Position of a border on the raster [px]: GL moves corners to a grid of 1/256 px, and the crease
+/// between two steep faces by that times their slope.
 inline constexpr double kRasterPx = 0.05;
 /// Range of a reference pixel against a formula [px], on faces of slope 4 or less (see kRasterPx).
 inline constexpr float kReferenceRangePx = 0.02f;
