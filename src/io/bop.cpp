@@ -110,7 +110,8 @@ void readImages(BopScene& scene, const TargetMap* targets) {
     image.camera =
         cameraFromJson(entry, fmt::format("camera list {}: image {}", camera_path.string(), key));
     if (const auto bin = bins.find(key); bin != bins.end()) {
-      image.bin = binBoxFromJson(*bin, fmt::format("bin list {}: image {}", bin_path.string(), key));
+      image.bin =
+          binBoxFromJson(*bin, fmt::format("bin list {}: image {}", bin_path.string(), key));
     }
     scene.images.push_back(std::move(image));
   }
@@ -155,10 +156,11 @@ BopDataset openBop(const fs::path& dir, const std::string& split) {
     images += scene.images.size();
   }
   if (images == 0 && dataset.models.empty()) {
-    throw Error(fmt::format("BOP data {}: neither models/obj_*.ply nor depth images in {}/NNNNNN; "
-                            "check folder and split",
-                            dir.string(),
-                            split));
+    throw Error(
+        fmt::format("BOP data {}: neither models/obj_*.ply nor depth images in {}/NNNNNN; "
+                    "check folder and split",
+                    dir.string(),
+                    split));
   }
   return dataset;
 }

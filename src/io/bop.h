@@ -1,8 +1,8 @@
 // Data sets in the BOP layout: reading them, and the CSV of results.
 //
 //   DIR/models/obj_NNNNNN.ply, models_info.json
-//   DIR/<split>/NNNNNN/depth/NNNNNN.png|tif|exr, scene_camera.json, scene_bin.json (not of BOP, optional)
-//   DIR/test_targets_bop19.json
+//   DIR/<split>/NNNNNN/depth/NNNNNN.png|tif|exr, scene_camera.json, scene_bin.json (not of BOP,
+//   optional) DIR/test_targets_bop19.json
 #pragma once
 
 #include <filesystem>
@@ -63,10 +63,10 @@ struct BopDataset {
   std::vector<BopTarget> targets;  ///< as in the file
 };
 
-/// `dir` is the data set, or a folder of scenes (then models lie in it or beside it). With a list of
-/// targets and the split "test" only images of the list are kept. Images without a depth file are left
-/// out, unless the list names them. Throws Error when there are neither models nor scenes, and for
-/// damaged files.
+/// `dir` is the data set, or a folder of scenes (then models lie in it or beside it). With a list
+/// of targets and the split "test" only images of the list are kept. Images without a depth file
+/// are left out, unless the list names them. Throws Error when there are neither models nor scenes,
+/// and for damaged files.
 BopDataset openBop(const std::filesystem::path& dir, const std::string& split = "test");
 
 /// obj_NNNNNN.ply of a folder with the entries of its models_info.json, by id.

@@ -30,9 +30,8 @@ std::string bopCsv(const std::vector<BopEstimate>& estimates) {
   for (const BopEstimate& row : estimates) {
     const auto [known, is_new] = time_of_image.try_emplace({row.scene_id, row.im_id}, row.time_s);
     if (!is_new && known->second != row.time_s) {
-      throw Error(fmt::format("BOP results of scene {} image {}: rows with different times",
-                              row.scene_id,
-                              row.im_id));
+      throw Error(fmt::format(
+          "BOP results of scene {} image {}: rows with different times", row.scene_id, row.im_id));
     }
     fmt::format_to(std::back_inserter(text),
                    "{},{},{},{},",

@@ -53,7 +53,8 @@ BopModelInfo modelInfo(const json& object, const std::string& where) {
                        where + ": field \"symmetries_discrete\""));
   }
   for (const json& line : optionalArray(object, "symmetries_continuous", where)) {
-    if (!line.is_object()) throw Error(where + ": field \"symmetries_continuous\" must hold objects");
+    if (!line.is_object())
+      throw Error(where + ": field \"symmetries_continuous\" must hold objects");
     const std::vector<double> axis = jsonNumbers(line, "axis", 3, where);
     const std::vector<double> offset = jsonNumbers(line, "offset", 3, where);
     const glm::dvec3 direction{axis[0], axis[1], axis[2]};
@@ -86,7 +87,8 @@ std::vector<BopModel> readBopModels(const fs::path& folder) {
     const std::string key = std::to_string(model.obj_id);
     const auto found = infos.find(key);
     if (found == infos.end()) continue;
-    model.info = modelInfo(*found, fmt::format("model list {}: object {}", info_path.string(), key));
+    model.info =
+        modelInfo(*found, fmt::format("model list {}: object {}", info_path.string(), key));
   }
   return models;
 }

@@ -19,7 +19,8 @@ constexpr double kMaxResidualPx = 0.5;  // root mean square
 constexpr int kMinFitPoints = 16;
 
 bool isSeen(const glm::vec3& point) {
-  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) && point.z > 0.0f;
+  return std::isfinite(point.x) && std::isfinite(point.y) && std::isfinite(point.z) &&
+         point.z > 0.0f;
 }
 
 DepthImage projected(const PointCloud& cloud, const Camera& camera) {
@@ -87,7 +88,8 @@ std::optional<DepthImage> onOwnGrid(const PointCloud& cloud) {
     }
   }
   Camera& camera = image.camera;
-  if (!columns.solve(camera.fx, camera.cx) || !rows.solve(camera.fy, camera.cy)) return std::nullopt;
+  if (!columns.solve(camera.fx, camera.cx) || !rows.solve(camera.fy, camera.cy))
+    return std::nullopt;
   return image;
 }
 
@@ -122,7 +124,8 @@ DepthImage fromMadeUpCamera(const PointCloud& cloud) {
 /// The camera with a size of its own or that of an organised cloud.
 Camera sizedCamera(const PointCloud& cloud, const Camera& camera) {
   if (camera.width == 0 && cloud.height == 1) {
-    throw Error("camera file: fields \"width\" and \"height\" are needed for a cloud without a grid");
+    throw Error(
+        "camera file: fields \"width\" and \"height\" are needed for a cloud without a grid");
   }
   const bool own_size = camera.width != 0;
   return withImageSize(camera,
@@ -134,13 +137,12 @@ Camera sizedCamera(const PointCloud& cloud, const Camera& camera) {
 }  // namespace
 
 DepthImage depthFromCloud(const PointCloud& cloud, const std::optional<Camera>& camera) {
-  RP_CHECK(cloud.width >= 0 && cloud.height >= 0 &&
-               cloud.points_mm.size() ==
-                   static_cast<std::size_t>(cloud.width) * static_cast<std::size_t>(cloud.height),
-           fmt::format("cloud: {} points are not {}x{}",
-                       cloud.points_mm.size(),
-                       cloud.width,
-                       cloud.height));
+  RP_CHECK(
+      cloud.width >= 0 && cloud.height >= 0 &&
+          cloud.points_mm.size() ==
+              static_cast<std::size_t>(cloud.width) * static_cast<std::size_t>(cloud.height),
+      fmt::format(
+          "cloud: {} points are not {}x{}", cloud.points_mm.size(), cloud.width, cloud.height));
   if (camera) return projected(cloud, sizedCamera(cloud, *camera));
   if (cloud.height > 1 && cloud.width > 1) {
     if (std::optional<DepthImage> image = onOwnGrid(cloud)) return *image;

@@ -55,8 +55,8 @@ std::int32_t takeInt(std::string_view& rest) {
   return static_cast<std::int32_t>(value);
 }
 
-/// The size limit is checked on the bytes themselves: a reader of OpenEXR takes memory for the whole
-/// size as soon as it is made. The header is a list of (name, type, length, value).
+/// The size limit is checked on the bytes themselves: a reader of OpenEXR takes memory for the
+/// whole size as soon as it is made. The header is a list of (name, type, length, value).
 void checkSizeInHeader(std::string_view bytes, const std::string& where) {
   constexpr std::size_t kMagicAndVersion = 8;
   if (bytes.size() < kMagicAndVersion) throw Error("the file ends too early");
@@ -83,11 +83,11 @@ void checkSizeInHeader(std::string_view bytes, const std::string& where) {
 
 void checkHeader(const Imf::Header& header, const std::string& where) {
   const Imath::Box2i& data = header.dataWindow();
-  checkImageSize(std::int64_t{data.max.x} - data.min.x + 1,
-                 std::int64_t{data.max.y} - data.min.y + 1,
-                 where);
+  checkImageSize(
+      std::int64_t{data.max.x} - data.min.x + 1, std::int64_t{data.max.y} - data.min.y + 1, where);
   if (data != header.displayWindow()) {
-    throw Error(where + ": the EXR has a data window other than its display window; write all pixels");
+    throw Error(where +
+                ": the EXR has a data window other than its display window; write all pixels");
   }
 }
 
@@ -106,9 +106,10 @@ std::string depthChannel(const Imf::Header& header, const std::string& where) {
   }
   const std::string chosen = count == 1 ? only : depth;
   if (chosen.empty()) {
-    throw Error(fmt::format("{}: no depth among the EXR channels ({}); give one channel or name it Z",
-                            where,
-                            oneLine(names)));
+    throw Error(
+        fmt::format("{}: no depth among the EXR channels ({}); give one channel or name it Z",
+                    where,
+                    oneLine(names)));
   }
   const Imf::Channel& channel = header.channels()[chosen.c_str()];
   if (channel.xSampling != 1 || channel.ySampling != 1) {

@@ -69,13 +69,14 @@ void writeDepthPng(const std::filesystem::path& path, const DepthImage& image) {
     for (int x = 0; x < depth_mm.width(); ++x) {
       const double value = std::round(depth_mm.at(x, y) / image.camera.depth_scale);
       if (!(value >= 0.0 && value <= 65535.0)) {
-        throw Error(fmt::format("{}: pixel ({}, {}) has {} mm, which does not fit into 16 bits at a "
-                                "depth_scale of {}; use a larger one",
-                                where,
-                                x,
-                                y,
-                                depth_mm.at(x, y),
-                                image.camera.depth_scale));
+        throw Error(
+            fmt::format("{}: pixel ({}, {}) has {} mm, which does not fit into 16 bits at a "
+                        "depth_scale of {}; use a larger one",
+                        where,
+                        x,
+                        y,
+                        depth_mm.at(x, y),
+                        image.camera.depth_scale));
       }
       values.at(x, y) = static_cast<std::uint16_t>(value);
     }

@@ -1,7 +1,7 @@
 // PNG by libpng, silent: its errors become Error, its warnings are dropped.
 //
-// libpng leaves a failed call by longjmp. The functions that it may leave this way own nothing: what
-// they work on belongs to their caller.
+// libpng leaves a failed call by longjmp. The functions that it may leave this way own nothing:
+// what they work on belongs to their caller.
 #include <fmt/format.h>
 #include <png.h>
 
@@ -109,7 +109,8 @@ bool writeImage(const Writer& writer, png_uint_32 width, png_uint_32 height, png
 
 std::vector<png_bytep> rowPointers(Image<std::uint16_t>& image) {
   std::vector<png_bytep> rows;
-  for (int y = 0; y < image.height(); ++y) rows.push_back(reinterpret_cast<png_bytep>(image.row(y)));
+  for (int y = 0; y < image.height(); ++y)
+    rows.push_back(reinterpret_cast<png_bytep>(image.row(y)));
   return rows;
 }
 

@@ -143,11 +143,10 @@ bool readBlocks(TIFF* tiff, const Blocks& blocks, std::size_t sample_bytes, Imag
     const int rows = std::min(static_cast<int>(blocks.height), image.height() - y0);
     for (int x0 = 0; x0 < image.width(); x0 += static_cast<int>(blocks.width), ++index) {
       const int columns = std::min(static_cast<int>(blocks.width), image.width() - x0);
-      const tmsize_t read =
-          blocks.tiled ? TIFFReadEncodedTile(tiff, index, buffer.data(), capacity)
-                       : TIFFReadEncodedStrip(tiff, index, buffer.data(), capacity);
-      const auto needed = blocks.tiled ? capacity
-                                       : static_cast<tmsize_t>(row_bytes) * rows;
+      const tmsize_t read = blocks.tiled
+                                ? TIFFReadEncodedTile(tiff, index, buffer.data(), capacity)
+                                : TIFFReadEncodedStrip(tiff, index, buffer.data(), capacity);
+      const auto needed = blocks.tiled ? capacity : static_cast<tmsize_t>(row_bytes) * rows;
       if (read < needed) return false;
       for (int y = 0; y < rows; ++y) {
         copySamples(buffer.data() + static_cast<std::size_t>(y) * row_bytes,

@@ -34,8 +34,8 @@ class CellIndex {
     entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
   }
 
-  /// Distance to the third nearest other position, infinite where none of the 3 x 3 cells around the
-  /// point can tell it.
+  /// Distance to the third nearest other position, infinite where none of the 3 x 3 cells around
+  /// the point can tell it.
   double thirdNearest(const glm::dvec2& point) const {
     std::array<double, kNeighbours> nearest{};
     nearest.fill(std::numeric_limits<double>::infinity());
@@ -43,10 +43,10 @@ class CellIndex {
     for (std::int64_t dx = -1; dx <= 1; ++dx) {
       const Cell first{center.x + dx, center.y - 1};
       const Cell last{center.x + dx, center.y + 1};
-      auto entry = std::lower_bound(entries_.begin(),
-                                    entries_.end(),
-                                    first,
-                                    [](const Entry& e, const Cell& cell) { return e.first < cell; });
+      auto entry = std::lower_bound(
+          entries_.begin(), entries_.end(), first, [](const Entry& e, const Cell& cell) {
+            return e.first < cell;
+          });
       for (; entry != entries_.end() && entry->first <= last; ++entry) {
         const double distance = glm::distance(entry->second, point);
         if (distance == 0.0 || distance >= nearest.back()) continue;

@@ -11,8 +11,8 @@ namespace rangepose {
 /// How a file is named in messages: `what` and its path, e.g. "depth image a/b.png".
 std::string fileLabel(std::string_view what, const std::filesystem::path& path);
 
-/// All bytes of a regular file. Throws Error when it is missing, unreadable, empty, not a file or larger
-/// than `max_bytes`.
+/// All bytes of a regular file. Throws Error when it is missing, unreadable, empty, not a file or
+/// larger than `max_bytes`.
 std::string readFileBytes(const std::filesystem::path& path,
                           std::string_view what,
                           std::uintmax_t max_bytes);

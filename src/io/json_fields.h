@@ -16,7 +16,9 @@ namespace rangepose {
 nlohmann::json parseJsonObject(std::string_view text, const std::string& where);
 
 /// Reads and parses a file that must hold one JSON object (or, if `list`, one JSON array).
-nlohmann::json readJsonFile(const std::filesystem::path& path, std::string_view what, bool list = false);
+nlohmann::json readJsonFile(const std::filesystem::path& path,
+                            std::string_view what,
+                            bool list = false);
 
 /// The finite number under `key`; Error when it is missing or something else.
 double jsonNumber(const nlohmann::json& object, const char* key, const std::string& where);

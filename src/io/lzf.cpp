@@ -8,7 +8,8 @@ namespace rangepose {
 
 // A stream of two kinds of pieces, told by the control byte that opens each:
 //   000nnnnn  n + 1 bytes follow as they are
-//   nnnddddd  a copy of n + 2 bytes from (ddddd << 8 | next byte) + 1 bytes back; n = 7 means that another
+//   nnnddddd  a copy of n + 2 bytes from (ddddd << 8 | next byte) + 1 bytes back; n = 7 means that
+//   another
 //             byte, which comes before the distance byte, is added to n
 std::string expandLzf(std::string_view packed, std::size_t size, const std::string& where) {
   const auto fail = [&]() -> void {
@@ -36,7 +37,8 @@ std::string expandLzf(std::string_view packed, std::size_t size, const std::stri
     const std::size_t distance = ((control & 31) << 8 | next()) + 1;
     if (distance > expanded.size() || count > size - expanded.size()) fail();
     // Byte by byte: source and target overlap where the distance is shorter than the copy.
-    for (std::size_t i = 0; i < count; ++i) expanded.push_back(expanded[expanded.size() - distance]);
+    for (std::size_t i = 0; i < count; ++i)
+      expanded.push_back(expanded[expanded.size() - distance]);
   }
   if (expanded.size() != size) fail();
   return expanded;

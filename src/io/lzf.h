@@ -6,8 +6,8 @@
 
 namespace rangepose {
 
-/// Expands `packed` to exactly `size` bytes. Throws Error naming `where` when the data is damaged or
-/// gives another size.
+/// Expands `packed` to exactly `size` bytes. Throws Error naming `where` when the data is damaged
+/// or gives another size.
 std::string expandLzf(std::string_view packed, std::size_t size, const std::string& where);
 
 }  // namespace rangepose

@@ -63,7 +63,8 @@ Mesh joinScene(const aiScene& scene, double scale, const std::string& where) {
 
 Mesh importScene(const std::filesystem::path& path, double scale, const std::string& where) {
   Assimp::Importer importer;
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE,
+                              aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
   // Validation comes first: later steps trust the indices of the file.
   constexpr unsigned kSteps =
@@ -77,9 +78,10 @@ Mesh importScene(const std::filesystem::path& path, double scale, const std::str
     reason = failure.what();
   }
   if (scene == nullptr || scene->mRootNode == nullptr) {
-    throw Error(fmt::format("{}: not a readable mesh ({}); give a complete STL, OBJ, PLY, glTF or OFF file",
-                            where,
-                            oneLine(reason)));
+    throw Error(
+        fmt::format("{}: not a readable mesh ({}); give a complete STL, OBJ, PLY, glTF or OFF file",
+                    where,
+                    oneLine(reason)));
   }
   return joinScene(*scene, scale, where);
 }

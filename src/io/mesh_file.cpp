@@ -47,16 +47,17 @@ void checkStlComplete(const std::filesystem::path& path, const std::string& wher
     std::array<unsigned char, 4> count{};
     file.seekg(kHeaderBytes - 4);
     file.read(reinterpret_cast<char*>(count.data()), 4);
-    const std::streamoff faces = count[0] | count[1] << 8 | count[2] << 16 |
-                                 std::streamoff{count[3]} << 24;
+    const std::streamoff faces =
+        count[0] | count[1] << 8 | count[2] << 16 | std::streamoff{count[3]} << 24;
     if (size == kHeaderBytes + kFaceBytes * faces) return;
   }
   std::string tail(static_cast<std::size_t>(std::min(size, kTailBytes)), '\0');
   file.seekg(size - static_cast<std::streamoff>(tail.size()));
   file.read(tail.data(), static_cast<std::streamsize>(tail.size()));
   if (file && lowerCase(tail).find("endsolid") != std::string::npos) return;
-  throw Error(where + ": the STL is truncated or of another type (neither the size of a binary STL nor "
-                      "an endsolid); export it again");
+  throw Error(where +
+              ": the STL is truncated or of another type (neither the size of a binary STL nor "
+              "an endsolid); export it again");
 }
 
 /// PLY and OFF have readers of their own: assimp does not return from some truncated PLY files, and

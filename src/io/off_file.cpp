@@ -68,11 +68,12 @@ class OffParser {
     const auto room = static_cast<long long>(rest_.size()) + 1;
     if (vertex_count > room / kVertexBytes ||
         face_count > (room - vertex_count * kVertexBytes) / kFaceBytes) {
-      throw Error(fmt::format("{}: the OFF is truncated: {} bytes cannot hold {} vertices and {} faces",
-                              where_,
-                              rest_.size(),
-                              vertex_count,
-                              face_count));
+      throw Error(
+          fmt::format("{}: the OFF is truncated: {} bytes cannot hold {} vertices and {} faces",
+                      where_,
+                      rest_.size(),
+                      vertex_count,
+                      face_count));
     }
   }
 

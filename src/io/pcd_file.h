@@ -18,7 +18,8 @@ struct PcdPoints {
 /// True for a text that begins like a PCD header.
 bool looksLikePcd(std::string_view bytes);
 
-/// Throws Error naming `where`; counts are checked against the size of the data before memory is taken.
+/// Throws Error naming `where`; counts are checked against the size of the data before memory is
+/// taken.
 PcdPoints parsePcd(std::string_view bytes, const std::string& where);
 
 }  // namespace rangepose

@@ -73,10 +73,8 @@ class HeaderParser {
   template <typename Setter>
   void forEachField(const std::vector<std::string>& words, const Setter& set) {
     if (words.size() != header_.fields.size() + 1) {
-      fail(fmt::format("has {} values in {} for {} FIELDS",
-                       words.size() - 1,
-                       words[0],
-                       header_.fields.size()));
+      fail(fmt::format(
+          "has {} values in {} for {} FIELDS", words.size() - 1, words[0], header_.fields.size()));
     }
     for (std::size_t i = 1; i < words.size(); ++i) set(header_.fields[i - 1], words[i]);
   }

@@ -31,8 +31,9 @@ struct PcdHeader {
   const PcdField& axis(std::size_t index) const { return fields[axes[index]]; }
 };
 
-/// Takes the header off the front of `rest`, up to the data. Throws Error naming `where`: the fields x, y and
-/// z are there, each one float or double, and the counts agree with each other and are not absurd.
+/// Takes the header off the front of `rest`, up to the data. Throws Error naming `where`: the
+/// fields x, y and z are there, each one float or double, and the counts agree with each other and
+/// are not absurd.
 PcdHeader takePcdHeader(std::string_view& rest, const std::string& where);
 
 }  // namespace rangepose

@@ -79,7 +79,10 @@ std::vector<unsigned> takeCorners(const PlyProperty& property,
   return corners;
 }
 
-void takeFaces(const PlyElement& element, PlyCursor& cursor, const std::string& where, RawMesh& mesh) {
+void takeFaces(const PlyElement& element,
+               PlyCursor& cursor,
+               const std::string& where,
+               RawMesh& mesh) {
   int list = element.indexOf("vertex_indices");
   if (list < 0) list = element.indexOf("vertex_index");
   if (list < 0 || !element.properties[static_cast<std::size_t>(list)].is_list) {

@@ -15,11 +15,21 @@ namespace {
 
 std::optional<PlyType> typeNamed(std::string_view name) {
   static constexpr std::array<std::pair<std::string_view, PlyType>, 16> kNames{{
-      {"char", PlyType::kInt8},      {"int8", PlyType::kInt8},       {"uchar", PlyType::kUint8},
-      {"uint8", PlyType::kUint8},    {"short", PlyType::kInt16},     {"int16", PlyType::kInt16},
-      {"ushort", PlyType::kUint16},  {"uint16", PlyType::kUint16},   {"int", PlyType::kInt32},
-      {"int32", PlyType::kInt32},    {"uint", PlyType::kUint32},     {"uint32", PlyType::kUint32},
-      {"float", PlyType::kFloat32},  {"float32", PlyType::kFloat32}, {"double", PlyType::kFloat64},
+      {"char", PlyType::kInt8},
+      {"int8", PlyType::kInt8},
+      {"uchar", PlyType::kUint8},
+      {"uint8", PlyType::kUint8},
+      {"short", PlyType::kInt16},
+      {"int16", PlyType::kInt16},
+      {"ushort", PlyType::kUint16},
+      {"uint16", PlyType::kUint16},
+      {"int", PlyType::kInt32},
+      {"int32", PlyType::kInt32},
+      {"uint", PlyType::kUint32},
+      {"uint32", PlyType::kUint32},
+      {"float", PlyType::kFloat32},
+      {"float32", PlyType::kFloat32},
+      {"double", PlyType::kFloat64},
       {"float64", PlyType::kFloat64},
   }};
   for (const auto& [text, type] : kNames) {
@@ -33,7 +43,8 @@ class HeaderParser {
   HeaderParser(std::string_view bytes, const std::string& where) : rest_(bytes), where_(where) {}
 
   PlyHeader parse() {
-    if (takeLine(rest_) != "ply") throw Error(where_ + ": not a PLY file (it does not start with ply)");
+    if (takeLine(rest_) != "ply")
+      throw Error(where_ + ": not a PLY file (it does not start with ply)");
     bool has_format = false;
     for (;;) {
       if (rest_.empty()) fail("has no end_header; the file is truncated or no PLY");
@@ -82,8 +93,7 @@ class HeaderParser {
   }
 
   void parseElement(const std::vector<std::string>& words, std::string_view line) {
-    const std::optional<long long> count =
-        words.size() == 3 ? parseCount(words[2]) : std::nullopt;
+    const std::optional<long long> count = words.size() == 3 ? parseCount(words[2]) : std::nullopt;
     if (!count) failLine(line);
     header_.elements.push_back({words[1], *count, {}});
   }
@@ -97,7 +107,8 @@ class HeaderParser {
     const std::optional<PlyType> type = typeNamed(words[words.size() - 2]);
     const std::optional<PlyType> count_type = typeNamed(words[property.is_list ? 2 : 1]);
     if (!type || !count_type) failLine(line);
-    if (property.is_list && (*count_type == PlyType::kFloat32 || *count_type == PlyType::kFloat64)) {
+    if (property.is_list &&
+        (*count_type == PlyType::kFloat32 || *count_type == PlyType::kFloat64)) {
       failLine(line);
     }
     property.type = *type;

@@ -21,7 +21,10 @@ glm::dvec3 polygonNormal(const Vertices& vertices, const std::vector<unsigned>& 
   return normal;
 }
 
-double turn(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& normal) {
+double turn(const glm::dvec3& a,
+            const glm::dvec3& b,
+            const glm::dvec3& c,
+            const glm::dvec3& normal) {
   return glm::dot(glm::cross(b - a, c - b), normal);
 }
 

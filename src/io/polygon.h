@@ -29,8 +29,8 @@ unsigned checkedCorner(double index,
 void checkCornerCount(std::int64_t corners, std::int64_t face, const std::string& where);
 
 /// Appends the triangles of a simple, nearly flat polygon (ear clipping), wound as the polygon is.
-/// `corners` are indices into `vertices` and in range. Corners that leave no ear (a polygon that crosses
-/// itself) are cut off one by one, so that n corners always give n - 2 triangles.
+/// `corners` are indices into `vertices` and in range. Corners that leave no ear (a polygon that
+/// crosses itself) are cut off one by one, so that n corners always give n - 2 triangles.
 void appendTriangles(const std::vector<glm::dvec3>& vertices,
                      std::vector<unsigned> corners,
                      std::vector<glm::uvec3>& triangles);

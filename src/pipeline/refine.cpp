@@ -57,7 +57,7 @@ void refineOne(Candidate& candidate,
   const Camera& camera = scene.depth.camera;
   const double tolerance = toleranceFor(object, scene.noise_mm);
   const auto render = [&](SurfaceWindow& window) {
-    window = windowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+    window = wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
     return stages.renderSurface(object.mesh, camera, candidate.pose, window);
   };
   SurfaceWindow window;

@@ -13,8 +13,9 @@ class Measured {
  public:
   Measured(const DepthImage& depth, double tolerance_mm) : depth_(depth), tolerance_mm_(tolerance_mm) {}
 
+  bool inImage(int u, int v) const { return depth_.depth_mm.contains(u, v); }
   double at(int u, int v) const {
-    return depth_.depth_mm.contains(u, v) ? static_cast<double>(depth_.depth_mm.at(u, v)) : 0.0;
+    return inImage(u, v) ? static_cast<double>(depth_.depth_mm.at(u, v)) : 0.0;
   }
 
   /// Normal towards the camera from the points `reach` pixels away; nothing where the surface ends.
@@ -98,16 +99,17 @@ void judgeBorder(const Image<SurfaceTexel>& surface,
   constexpr int kOut = 2;
   const double model = static_cast<double>(surface.at(x, y).w);
   const double inside = measured.at(window.x0 + x * window.step, window.y0 + y * window.step);
-  // Behind nearer data nothing can be said: it counts half.
+  // Behind nearer data and outside of the image nothing can be said: that counts half.
   const bool covered = inside != 0.0 && inside < model - options.tolerance_mm;
   for (const auto& [dx, dy] : kDirections) {
     const int near_x = x + dx;
     const int near_y = y + dy;
     if (surface.contains(near_x, near_y) && surface.at(near_x, near_y).w > 0.0f) continue;
-    const double outside = measured.at(window.x0 + (x + kOut * dx) * window.step,
-                                       window.y0 + (y + kOut * dy) * window.step);
+    const int out_u = window.x0 + (x + kOut * dx) * window.step;
+    const int out_v = window.y0 + (y + kOut * dy) * window.step;
+    const double outside = measured.at(out_u, out_v);
     tally.border += 1.0;
-    if (covered) {
+    if (covered || !measured.inImage(out_u, out_v)) {
       tally.border_ends += 0.5;
       continue;
     }

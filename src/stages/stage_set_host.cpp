@@ -1,4 +1,5 @@
 #include <map>
+#include <tuple>
 #include <utility>
 
 #include "stages/channels_host.h"
@@ -97,10 +98,13 @@ class HostStages : public StageSet {
 
  private:
   const host::PackedViews& packed(const ReferenceObject& object) {
-    return packed_.try_emplace(&object, object).first->second;
+    // By its atlas: another object may come to lie at the address of one that is gone.
+    const Key key{&object, object.atlas.data(), object.views.size()};
+    return packed_.try_emplace(key, object).first->second;
   }
 
-  std::map<const ReferenceObject*, host::PackedViews> packed_;
+  using Key = std::tuple<const ReferenceObject*, const ReferenceTexel*, std::size_t>;
+  std::map<Key, host::PackedViews> packed_;
 };
 
 }  // namespace

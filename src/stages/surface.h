@@ -27,6 +27,13 @@ struct SurfaceWindow {
 /// width 0 when it is not seen. `max_pixels` limits width and height by raising `step`.
 SurfaceWindow windowAround(const Camera& camera, const glm::dvec3& center_mm, double radius_mm, int max_pixels);
 
+/// The same without the clipping: for judging a part that the border of the image cuts. Width 0 when nothing of
+/// the sphere is in the image.
+SurfaceWindow wholeWindowAround(const Camera& camera,
+                                const glm::dvec3& center_mm,
+                                double radius_mm,
+                                int max_pixels);
+
 namespace host {
 
 /// Software rasteriser: same result as gles::SurfaceRenderer but for pixels on the borders of triangles.

@@ -8,25 +8,42 @@
 
 namespace rangepose {
 
-SurfaceWindow windowAround(const Camera& camera,
-                           const glm::dvec3& center_mm,
-                           double radius_mm,
-                           int max_pixels) {
-  const bool seen = camera.orthographic || center_mm.z - radius_mm > 0.0;
-  if (!seen) return {};
-  // Bounds of the projection of the sphere's box: a little larger than those of the sphere.
-  glm::dvec2 low(std::numeric_limits<double>::max());
-  glm::dvec2 high(std::numeric_limits<double>::lowest());
+namespace {
+
+/// Bounds of the projection of a box around a sphere, in pixels: a little larger than those of the sphere.
+struct Bounds {
+  glm::dvec2 low{std::numeric_limits<double>::max()};
+  glm::dvec2 high{std::numeric_limits<double>::lowest()};
+};
+
+Bounds projectedBounds(const Camera& camera, const glm::dvec3& center_mm, double radius_mm) {
+  Bounds bounds;
+  if (!camera.orthographic && center_mm.z - radius_mm <= 0.0) return bounds;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
     const glm::dvec2 pixel = camera.project(center_mm + radius_mm * sign);
-    low = glm::min(low, pixel);
-    high = glm::max(high, pixel);
+    bounds.low = glm::min(bounds.low, pixel);
+    bounds.high = glm::max(bounds.high, pixel);
   }
-  low = glm::max(low, glm::dvec2(0.0));
-  high = glm::min(high, glm::dvec2(camera.width - 1, camera.height - 1));
-  if (!(low.x <= high.x) || !(low.y <= high.y)) return {};
+  return bounds;
+}
+
+Bounds clipped(const Bounds& bounds, const Camera& camera) {
+  return {glm::max(bounds.low, glm::dvec2(0.0)),
+          glm::min(bounds.high, glm::dvec2(camera.width - 1, camera.height - 1))};
+}
+
+bool isEmpty(const Bounds& bounds) {
+  return !(bounds.low.x <= bounds.high.x) || !(bounds.low.y <= bounds.high.y);
+}
+
+SurfaceWindow windowOf(const Bounds& bounds, int max_pixels) {
   SurfaceWindow window;
+  if (isEmpty(bounds)) return window;
+  // A part so near that it fills many images is not rendered finer for it.
+  constexpr double kFarthestPx = 1.0e6;
+  const glm::dvec2 low = glm::max(bounds.low, glm::dvec2(-kFarthestPx));
+  const glm::dvec2 high = glm::min(bounds.high, glm::dvec2(kFarthestPx));
   window.x0 = static_cast<int>(std::floor(low.x));
   window.y0 = static_cast<int>(std::floor(low.y));
   const int width = static_cast<int>(std::ceil(high.x)) - window.x0 + 1;
@@ -35,6 +52,24 @@ SurfaceWindow windowAround(const Camera& camera,
   window.width = (width + window.step - 1) / window.step;
   window.height = (height + window.step - 1) / window.step;
   return window;
+}
+
+}  // namespace
+
+SurfaceWindow windowAround(const Camera& camera,
+                           const glm::dvec3& center_mm,
+                           double radius_mm,
+                           int max_pixels) {
+  return windowOf(clipped(projectedBounds(camera, center_mm, radius_mm), camera), max_pixels);
+}
+
+SurfaceWindow wholeWindowAround(const Camera& camera,
+                                const glm::dvec3& center_mm,
+                                double radius_mm,
+                                int max_pixels) {
+  const Bounds bounds = projectedBounds(camera, center_mm, radius_mm);
+  if (isEmpty(clipped(bounds, camera))) return {};
+  return windowOf(bounds, max_pixels);
 }
 
 namespace host {

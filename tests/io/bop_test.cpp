@@ -31,7 +31,8 @@ const char* const kInfos =
              "symmetries_continuous": [{"axis": [0, 0, 2], "offset": [1, 2, 3]}]},
         "30": {"diameter": 50, "min_x": -1}})";
 
-/// Two models, scene 3 with images 0 (PNG, in a bin) and 12 (TIFF), and scene 20 without images on disk.
+/// Two models, scene 3 with images 0 (PNG, in a bin) and 12 (TIFF), and scene 20 without images on
+/// disk.
 class BopFolder : public TempFolder {
  public:
   BopFolder() {
@@ -42,7 +43,8 @@ class BopFolder : public TempFolder {
     write("models/models_info.json", kInfos);
     write("test/000003/scene_camera.json", kCameras);
     write("test/000003/depth/000000.png", makePng(3, 2, 1, 16, values));
-    write("test/000003/depth/000012.tif", makeTiff(3, 2, TiffLayout{}, std::vector<float>(6, 1000.0f)));
+    write("test/000003/depth/000012.tif",
+          makeTiff(3, 2, TiffLayout{}, std::vector<float>(6, 1000.0f)));
     write("test/000003/scene_bin.json",
           R"({"0": {"cam_R_bin2c": [1, 0, 0, 0, 1, 0, 0, 0, 1], "cam_t_bin2c": [0, 0, 700],
                     "inner_size": [300, 200, 100]}})");
@@ -150,8 +152,11 @@ TEST(Bop, DamagedFilesAreErrorsThatNameTheEntry) {
   EXPECT_THAT(error(infos, R"({"1": {"diameter": 1, "symmetries_discrete":
                   [[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]]}})"),
               HasSubstr("not a rotation"));
-  EXPECT_THAT(error(infos, R"({"1": {"diameter": 1, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}]}})"),
-              HasSubstr("axis"));
+  EXPECT_THAT(
+      error(
+          infos,
+          R"({"1": {"diameter": 1, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}]}})"),
+      HasSubstr("axis"));
   EXPECT_THAT(error("test_targets_bop19.json", R"({"im_id": 1})"), HasSubstr("JSON array"));
   EXPECT_THAT(error("test_targets_bop19.json", R"([{"im_id": 1}])"),
               AllOf(HasSubstr("entry 0"), HasSubstr("scene_id")));
@@ -186,7 +191,9 @@ TEST(BopCsv, ValuesThatAreNotFiniteAndDifferentTimesAreErrors) {
   row.obj_id = 30;
   BopEstimate other = row;
   other.time_s = 2.0;
-  EXPECT_THAT(errorOf([&] { bopCsv({row, other}); }),
+  EXPECT_THAT(errorOf([&] {
+                bopCsv({row, other});
+              }),
               AllOf(HasSubstr("scene 3 image 12"), HasSubstr("different times")));
   row.camera_from_object.translation_mm.z = std::numeric_limits<double>::quiet_NaN();
   const TempFolder folder;

@@ -142,9 +142,8 @@ TEST(CameraFile, MissingEmptyFolderAndTruncatedFilesAreErrors) {
               AllOf(HasSubstr("none.json"), HasSubstr("no such file")));
   EXPECT_THAT(errorOf([&] { readCamera(folder.write("e.json", "")); }), HasSubstr("empty"));
   EXPECT_THAT(errorOf([&] { readCamera(folder.path()); }), HasSubstr("not a regular file"));
-  expectTruncationsRefused("c.json", kGood, std::string_view(kGood).size(), [](const auto& path) {
-    readCamera(path);
-  });
+  expectTruncationsRefused(
+      "c.json", kGood, std::string_view(kGood).size(), [](const auto& path) { readCamera(path); });
 }
 
 const char* const kBin =
@@ -167,9 +166,12 @@ TEST(BinFile, BadFieldsAreNamed) {
   EXPECT_THAT(error("-1", "-2"), AllOf(HasSubstr("cam_R_bin2c"), HasSubstr("not a rotation")));
   EXPECT_THAT(error("-1", "1"), AllOf(HasSubstr("cam_R_bin2c"), HasSubstr("not a rotation")));
   EXPECT_THAT(error("cam_R_bin2c", "cam_R"), AllOf(HasSubstr("cam_R_bin2c"), HasSubstr("missing")));
-  EXPECT_THAT(error("[1, 2, 3]", "[1, 2]"), AllOf(HasSubstr("cam_t_bin2c"), HasSubstr("3 numbers")));
-  EXPECT_THAT(error("[40, 50, 6]", "[40, 0, 6]"), AllOf(HasSubstr("inner_size"), HasSubstr("positive")));
-  EXPECT_THAT(error("[40, 50, 6]", "[40, 5, -6]"), AllOf(HasSubstr("inner_size"), HasSubstr("positive")));
+  EXPECT_THAT(error("[1, 2, 3]", "[1, 2]"),
+              AllOf(HasSubstr("cam_t_bin2c"), HasSubstr("3 numbers")));
+  EXPECT_THAT(error("[40, 50, 6]", "[40, 0, 6]"),
+              AllOf(HasSubstr("inner_size"), HasSubstr("positive")));
+  EXPECT_THAT(error("[40, 50, 6]", "[40, 5, -6]"),
+              AllOf(HasSubstr("inner_size"), HasSubstr("positive")));
 }
 
 }  // namespace

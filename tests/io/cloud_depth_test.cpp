@@ -72,23 +72,27 @@ TEST(CloudDepth, ProjectionByTheCameraGivesTheImageBack) {
 
 TEST(CloudDepth, NearestPointWinsAndBadPointsAreDropped) {
   const Camera camera = pinhole(64, 48);
-  const auto at = [&](double u, double v, double z) { return glm::vec3(camera.unproject(u, v, z)); };
-  const DepthImage image = depthFromCloud(unorganised({at(5, 6, 500),
-                                                       at(5.4, 5.6, 300),
-                                                       at(5, 6, 400),
-                                                       at(7, 7, -100),
-                                                       at(64, 10, 100),
-                                                       at(-1, 10, 100),
-                                                       {kNan, 0, 100},
-                                                       {1, 1, std::numeric_limits<float>::infinity()},
-                                                       {0, 0, 0}}),
-                                          camera);
+  const auto at = [&](double u, double v, double z) {
+    return glm::vec3(camera.unproject(u, v, z));
+  };
+  const DepthImage image =
+      depthFromCloud(unorganised({at(5, 6, 500),
+                                  at(5.4, 5.6, 300),
+                                  at(5, 6, 400),
+                                  at(7, 7, -100),
+                                  at(64, 10, 100),
+                                  at(-1, 10, 100),
+                                  {kNan, 0, 100},
+                                  {1, 1, std::numeric_limits<float>::infinity()},
+                                  {0, 0, 0}}),
+                     camera);
   EXPECT_EQ(validPixels(image), 1);
   EXPECT_EQ(image.depth_mm.at(5, 6), 300.0f);
 }
 
 TEST(CloudDepth, OrthographicCameraProjectsAlongZ) {
-  Camera camera = parseCamera(R"({"orthographic": true, "pixel_size": 2, "width": 11, "height": 9})", "c");
+  Camera camera =
+      parseCamera(R"({"orthographic": true, "pixel_size": 2, "width": 11, "height": 9})", "c");
   const DepthImage image = depthFromCloud(unorganised({{4, -6, 70}, {4, -6, 60}}), camera);
   EXPECT_EQ(image.depth_mm.at(7, 1), 60.0f);
 }
@@ -120,7 +124,8 @@ TEST(CloudDepth, GridThatNoPinholeMadeIsTakenAsUnorganised) {
   for (int v = 0; v < 40; ++v) {
     for (int u = 0; u < 60; ++u) {
       const float z = (u / 10 + v / 10) % 2 == 0 ? 300.0f : 900.0f;
-      cloud.points_mm.emplace_back(4.0f * static_cast<float>(u - 30), 4.0f * static_cast<float>(v - 20), z);
+      cloud.points_mm.emplace_back(
+          4.0f * static_cast<float>(u - 30), 4.0f * static_cast<float>(v - 20), z);
     }
   }
   const DepthImage image = depthFromCloud(cloud, std::nullopt);
@@ -148,7 +153,8 @@ TEST(CloudDepth, MadeUpCameraHasTheStepOfARegularScan) {
   EXPECT_NEAR(image.camera.fx, camera.fx, 0.01 * camera.fx);
   EXPECT_EQ(image.camera.fx, image.camera.fy);
   expectHoldsAllPoints(image, cloud);
-  EXPECT_GT(validPixels(image), static_cast<int>(0.97 * static_cast<double>(cloud.points_mm.size())));
+  EXPECT_GT(validPixels(image),
+            static_cast<int>(0.97 * static_cast<double>(cloud.points_mm.size())));
 }
 
 TEST(CloudDepth, MadeUpCameraHasAboutOnePointAPixelForAScatteredScan) {
@@ -167,9 +173,9 @@ TEST(CloudDepth, MadeUpCameraHasAboutOnePointAPixelForAScatteredScan) {
 TEST(CloudDepth, MadeUpCameraStaysSmallWithAStrayPoint) {
   Camera camera = pinhole(200, 150);
   PointCloud cloud = cloudOf(scene(camera), false);
-  cloud.points_mm.emplace_back(2000.0f, 0.0f, 500.0f);   // 76 degrees: kept
-  cloud.points_mm.emplace_back(9000.0f, 0.0f, 500.0f);   // 87 degrees: dropped
-  cloud.points_mm.emplace_back(0.0f, 0.0f, -500.0f);     // behind: dropped
+  cloud.points_mm.emplace_back(2000.0f, 0.0f, 500.0f);  // 76 degrees: kept
+  cloud.points_mm.emplace_back(9000.0f, 0.0f, 500.0f);  // 87 degrees: dropped
+  cloud.points_mm.emplace_back(0.0f, 0.0f, -500.0f);    // behind: dropped
   cloud = unorganised(cloud.points_mm);
   const DepthImage image = depthFromCloud(cloud, std::nullopt);
   EXPECT_LE(image.depth_mm.width(), 2048);
@@ -205,12 +211,16 @@ TEST(CloudDepth, FewOrEqualPointsStillGiveAnImage) {
 }
 
 TEST(CloudDepth, NoPointInFrontIsAnError) {
-  EXPECT_THAT(errorOf([] { depthFromCloud(unorganised({{0, 0, -5}, {kNan, 0, 0}}), std::nullopt); }),
+  EXPECT_THAT(errorOf([] {
+                depthFromCloud(unorganised({{0, 0, -5}, {kNan, 0, 0}}), std::nullopt);
+              }),
               HasSubstr("no point lies in front of the camera"));
 }
 
 TEST(CloudDepth, CountThatDoesNotMatchTheSizeIsAnError) {
-  EXPECT_THAT(errorOf([] { depthFromCloud({{{0, 0, 5}}, 2, 2}, std::nullopt); }),
+  EXPECT_THAT(errorOf([] {
+                depthFromCloud({{{0, 0, 5}}, 2, 2}, std::nullopt);
+              }),
               HasSubstr("1 points are not 2x2"));
 }
 

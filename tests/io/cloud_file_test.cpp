@@ -38,10 +38,11 @@ const char* const kAscii =
 
 /// Six doubles and lists, with a camera element in front and a list behind.
 std::string binary(bool big) {
-  std::string bytes = std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
-                      " 1.0\nelement camera 1\nproperty float view_px\nproperty list uchar int more\n"
-                      "element vertex 6\nproperty list uchar short extra\nproperty double x\n"
-                      "property double y\nproperty double z\nproperty int label\nend_header\n";
+  std::string bytes =
+      std::string("ply\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
+      " 1.0\nelement camera 1\nproperty float view_px\nproperty list uchar int more\n"
+      "element vertex 6\nproperty list uchar short extra\nproperty double x\n"
+      "property double y\nproperty double z\nproperty int label\nend_header\n";
   bytes += rawBytes(1.5f, big) + "\x02" + rawBytes(7, big) + rawBytes(8, big);
   for (int i = 0; i < 6; ++i) {
     bytes += static_cast<char>(i);
@@ -91,9 +92,10 @@ TEST(CloudPly, MissingEmptyFolderAndWrongType) {
   EXPECT_THAT(errorFor(""), HasSubstr("the file is empty"));
   EXPECT_THAT(errorFor("\x89PNG\r\n\x1a\n"), HasSubstr("neither PLY nor PCD"));
   EXPECT_THAT(errorFor("plywood\n"), HasSubstr("not a PLY file"));
-  EXPECT_THAT(errorFor("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
-                       "property float z\nend_header\n"),
-              HasSubstr("no points"));
+  EXPECT_THAT(
+      errorFor("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\n"
+               "property float z\nend_header\n"),
+      HasSubstr("no points"));
 }
 
 TEST(CloudPly, WrongNumbersAndListsAreErrors) {

@@ -105,7 +105,8 @@ TEST(DepthDamage, OversizedTiff) {
   for (const std::uint32_t size : {300u, 200u}) {
     // An entry: tag 256 or 257, type 3 (short), count 1, value.
     const auto tag = static_cast<std::uint16_t>(size == 300 ? 256 : 257);
-    const std::string entry = rawBytes(tag) + rawBytes(std::uint16_t{3}) + rawBytes(1u) + rawBytes(size);
+    const std::string entry =
+        rawBytes(tag) + rawBytes(std::uint16_t{3}) + rawBytes(1u) + rawBytes(size);
     const std::size_t at = tiff.find(entry);
     ASSERT_NE(at, std::string::npos);
     tiff.replace(at + 2, 10, rawBytes(std::uint16_t{4}) + rawBytes(1u) + rawBytes(60000u));
@@ -130,8 +131,8 @@ TEST(DepthDamage, TruncatedPng) {
 }
 
 TEST(DepthDamage, TruncatedTiff) {
-  // libtiff writes the directory behind the pixels: every beginning lacks a part of it. The last bytes
-  // can be values of tags that nobody needs.
+  // libtiff writes the directory behind the pixels: every beginning lacks a part of it. The last
+  // bytes can be values of tags that nobody needs.
   for (const TiffLayout& layout : {TiffLayout{}, TiffLayout{1, 32, true, true, true}}) {
     const std::string tiff = makeTiff(37, 29, layout, noise(37 * 29));
     expectTruncationsRefused("d.tif", tiff, tiff.size() / 2, readIt);

@@ -74,8 +74,8 @@ TEST(DepthFile, ReadsTiffInAllLayouts) {
 
 TEST(DepthFile, ReadsExrByChannel) {
   const TempFolder folder;
-  for (const std::vector<std::string>& names :
-       std::vector<std::vector<std::string>>{{"Y"}, {"Z"}, {"any"}, {"R", "G", "B", "Z"}, {"A.Depth", "Y"}}) {
+  for (const std::vector<std::string>& names : std::vector<std::vector<std::string>>{
+           {"Y"}, {"Z"}, {"any"}, {"R", "G", "B", "Z"}, {"A.Depth", "Y"}}) {
     const auto path = folder.write("d.exr", makeExr(kWidth, kHeight, names, ramp()));
     expectRamp(readDepth(path, camera(1.0)), 1.0);
   }
@@ -99,7 +99,8 @@ TEST(DepthFile, NanInfiniteAndNegativeValuesAreNoMeasurement) {
   constexpr float kInf = std::numeric_limits<float>::infinity();
   const std::vector<float> values{
       std::numeric_limits<float>::quiet_NaN(), kInf, -kInf, -3.0f, 0.0f, -0.0f, 7.5f, 3e38f};
-  for (const std::string& bytes : {makeTiff(8, 1, TiffLayout{1, 32, true}, values), makeExr(8, 1, {"Z"}, values)}) {
+  for (const std::string& bytes :
+       {makeTiff(8, 1, TiffLayout{1, 32, true}, values), makeExr(8, 1, {"Z"}, values)}) {
     const DepthImage image = readDepth(folder.write("d", bytes), camera(10.0));
     for (int x = 0; x < 8; ++x) {
       EXPECT_EQ(image.depth_mm.at(x, 0), x == 6 ? 75.0f : 0.0f) << x;

@@ -83,7 +83,10 @@ void writeTiles(
 
 }  // namespace
 
-std::string makeTiff(int width, int height, const TiffLayout& layout, const std::vector<float>& values) {
+std::string makeTiff(int width,
+                     int height,
+                     const TiffLayout& layout,
+                     const std::vector<float>& values) {
   const TempFolder folder;
   const std::string path = (folder.path() / "image.tif").string();
   TIFF* tiff = TIFFOpen(path.c_str(), layout.big_endian ? "wb" : "wl");
@@ -95,9 +98,8 @@ std::string makeTiff(int width, int height, const TiffLayout& layout, const std:
   TIFFSetField(
       tiff, TIFFTAG_SAMPLEFORMAT, layout.is_float ? SAMPLEFORMAT_IEEEFP : SAMPLEFORMAT_UINT);
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
-  TIFFSetField(tiff,
-               TIFFTAG_PHOTOMETRIC,
-               layout.channels == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
+  TIFFSetField(
+      tiff, TIFFTAG_PHOTOMETRIC, layout.channels == 1 ? PHOTOMETRIC_MINISBLACK : PHOTOMETRIC_RGB);
   TIFFSetField(
       tiff, TIFFTAG_COMPRESSION, layout.compressed ? COMPRESSION_ADOBE_DEFLATE : COMPRESSION_NONE);
   if (layout.tiled) {
@@ -107,7 +109,8 @@ std::string makeTiff(int width, int height, const TiffLayout& layout, const std:
     for (int y = 0; y < height; ++y) {
       std::string row;
       for (int i = 0; i < width * layout.channels; ++i) {
-        row += tiffSample(layout, values[static_cast<std::size_t>(y * width * layout.channels + i)]);
+        row +=
+            tiffSample(layout, values[static_cast<std::size_t>(y * width * layout.channels + i)]);
       }
       TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y), 0);
     }

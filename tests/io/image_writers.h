@@ -21,7 +21,10 @@ struct TiffLayout {
 };
 
 /// A TIFF; `values` are converted to the sample type.
-std::string makeTiff(int width, int height, const TiffLayout& layout, const std::vector<float>& values);
+std::string makeTiff(int width,
+                     int height,
+                     const TiffLayout& layout,
+                     const std::vector<float>& values);
 
 /// An EXR with float channels of these names, all with the same values; half floats if `half`.
 std::string makeExr(int width,

@@ -32,8 +32,8 @@ std::string bytesOf(const std::filesystem::path& path);
 /// text is not one line.
 std::string errorOf(const std::function<void()>& action);
 
-/// Feeds beginnings of `whole` of many lengths to `read`, as a file named `name`, and expects Error from
-/// each that is shorter than `complete` bytes. Nothing may be printed meanwhile.
+/// Feeds beginnings of `whole` of many lengths to `read`, as a file named `name`, and expects Error
+/// from each that is shorter than `complete` bytes. Nothing may be printed meanwhile.
 void expectTruncationsRefused(const std::string& name,
                               std::string_view whole,
                               std::size_t complete,

@@ -23,7 +23,9 @@ using testing::HasSubstr;
 
 void readIt(const std::filesystem::path& path) { readMesh(path, LengthUnit::kMillimetre); }
 
-Mesh readText(const std::string& name, const std::string& text, LengthUnit unit = LengthUnit::kMillimetre) {
+Mesh readText(const std::string& name,
+              const std::string& text,
+              LengthUnit unit = LengthUnit::kMillimetre) {
   const TempFolder folder;
   return readMesh(folder.write(name, text), unit);
 }
@@ -72,18 +74,20 @@ std::string asciiStl(const Mesh& mesh) {
     text += "facet normal 0 0 0\nouter loop\n";
     for (int corner = 0; corner < 3; ++corner) {
       const glm::vec3 v = mesh.vertices[t[corner]];
-      text += "vertex " + std::to_string(v.x) + " " + std::to_string(v.y) + " " + std::to_string(v.z) + "\n";
+      text += "vertex " + std::to_string(v.x) + " " + std::to_string(v.y) + " " +
+              std::to_string(v.z) + "\n";
     }
     text += "endloop\nendfacet\n";
   }
   return text + "endsolid part\n";
 }
 
-const char* const kObj =
-    "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-const char* const kOff = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+const char* const kObj = "v 0 0 0\nv 1 0 0\nv 0 2 0\nv 0 0 3\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const char* const kOff =
+    "OFF\n4 4 6\n0 0 0\n1 0 0\n0 2 0\n0 0 3\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
 const char* const kPlyHeader =
-    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+    "z\n"
     "element face 4\nproperty list uchar int vertex_indices\nend_header\n";
 const char* const kPlyVertices = "0 0 0\n1 0 0\n0 2 0\n0 0 3\n";
 const char* const kPlyFaces = "3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
@@ -120,7 +124,8 @@ TEST(MeshFile, UnitScalesEveryFormat) {
 
 /// glTF with the tetrahedron in a buffer beside it, and two nodes that show it.
 std::string gltf(const std::string& nodes) {
-  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": )" + nodes +
+  return R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}], "nodes": )" +
+         nodes +
          R"(, "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
       "accessors": [
         {"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3", "min": [0, 0, 0], "max": [1, 2, 3]},
@@ -142,7 +147,8 @@ TEST(MeshFile, JoinsMeshesWithTheTransformsOfTheirNodes) {
   folder.write("part.bin", gltfBuffer());
   const auto path = folder.write(
       "part.gltf",
-      gltf(R"([{"mesh": 0, "translation": [10, 0, 0]}, {"scale": [2, 2, 2], "children": [2]}, {"mesh": 0}])"));
+      gltf(
+          R"([{"mesh": 0, "translation": [10, 0, 0]}, {"scale": [2, 2, 2], "children": [2]}, {"mesh": 0}])"));
   const Mesh mesh = readMesh(path, LengthUnit::kMillimetre);
   EXPECT_EQ(mesh.vertices.size(), 8u);
   EXPECT_EQ(mesh.triangles.size(), 8u);
@@ -156,7 +162,8 @@ TEST(MeshFile, MirroringNodeKeepsFacesOutside) {
   const TempFolder folder;
   folder.write("part.bin", gltfBuffer());
   const auto path = folder.write(
-      "part.gltf", gltf(R"([{"mesh": 0, "scale": [-1, 1, 1]}, {"mesh": 0, "translation": [9, 9, 9]}])"));
+      "part.gltf",
+      gltf(R"([{"mesh": 0, "scale": [-1, 1, 1]}, {"mesh": 0, "translation": [9, 9, 9]}])"));
   EXPECT_NEAR(signedVolume(readMesh(path, LengthUnit::kMillimetre)), 2.0, 1e-5);
 }
 
@@ -165,17 +172,19 @@ TEST(MeshFile, GltfWithoutItsBufferIsAnError) {
 }
 
 TEST(MeshFile, FacesWithoutAreaAndLooseVerticesAreRemoved) {
-  const Mesh mesh = readText("part.obj", std::string(kObj) + "v 9 9 9\nv 0.5 0 0\nf 1 1 2\nf 1 6 2\n");
+  const Mesh mesh =
+      readText("part.obj", std::string(kObj) + "v 9 9 9\nv 0.5 0 0\nf 1 1 2\nf 1 6 2\n");
   expectTetrahedron(mesh, 1.0);
 }
 
 TEST(MeshFile, ReadsBinaryPlyOfBothOrdersWithOtherPropertiesAndPolygons) {
   for (const bool big : {false, true}) {
-    std::string bytes = std::string("ply\r\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
-                        " 1.0\r\ncomment made by hand\r\nelement material 1\r\nproperty list ushort char name\r\n"
-                        "element vertex 5\r\nproperty uchar red\r\nproperty double z\r\nproperty float y\r\n"
-                        "property short x\r\nelement face 2\r\nproperty float quality\r\n"
-                        "property list uchar uint vertex_index\r\nend_header\r\n";
+    std::string bytes =
+        std::string("ply\r\nformat ") + (big ? "binary_big_endian" : "binary_little_endian") +
+        " 1.0\r\ncomment made by hand\r\nelement material 1\r\nproperty list ushort char name\r\n"
+        "element vertex 5\r\nproperty uchar red\r\nproperty double z\r\nproperty float y\r\n"
+        "property short x\r\nelement face 2\r\nproperty float quality\r\n"
+        "property list uchar uint vertex_index\r\nend_header\r\n";
     bytes += rawBytes(std::uint16_t{3}, big) + "abc";
     // A square of side 4 at z = 7 that lacks its right quarter (an arrow tail), and a triangle.
     const int corners[5][2] = {{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}};
@@ -238,9 +247,10 @@ TEST(MeshFile, BadIndicesAreErrors) {
 }
 
 TEST(MeshFile, ReadsOffWithColoursCommentsAndGluedCounts) {
-  const Mesh mesh = readText("part.off",
-                             "COFF4 4 6\n# the corners\n0 0 0 255 0 0\n1 0 0 9 9 9\n\n0 2 0 9 9 9\n0 0 3 9 9 9 9\n"
-                             "3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 0 3 2 # left\n3 1 2 3");
+  const Mesh mesh = readText(
+      "part.off",
+      "COFF4 4 6\n# the corners\n0 0 0 255 0 0\n1 0 0 9 9 9\n\n0 2 0 9 9 9\n0 0 3 9 9 9 9\n"
+      "3 0 2 1 0.5 0.5 0.5\n3 0 1 3\n3 0 3 2 # left\n3 1 2 3");
   expectTetrahedron(mesh, 1.0);
   EXPECT_THAT(errorFor("h.off", "OFF\n900000000 1 0\n0 0 0\n"), HasSubstr("truncated"));
   EXPECT_THAT(errorFor("h.off", "OFF\n1 x 0\n0 0 0\n"), HasSubstr("whole number"));
@@ -248,10 +258,12 @@ TEST(MeshFile, ReadsOffWithColoursCommentsAndGluedCounts) {
 }
 
 TEST(MeshFile, VerticesThatAreNotFiniteAndFlatMeshesAreErrors) {
-  EXPECT_THAT(errorFor("n.ply", std::string(kPlyHeader) + "0 0 0\nnan 0 0\n0 2 0\n0 0 3\n" + kPlyFaces),
-              AllOf(HasSubstr("n.ply"), HasSubstr("vertex 1 is not finite")));
-  EXPECT_THAT(errorFor("n.ply", std::string(kPlyHeader) + "0 0 0\n1 0 0\n2 0 0\n3 0 0\n" + kPlyFaces),
-              HasSubstr("no face has an area"));
+  EXPECT_THAT(
+      errorFor("n.ply", std::string(kPlyHeader) + "0 0 0\nnan 0 0\n0 2 0\n0 0 3\n" + kPlyFaces),
+      AllOf(HasSubstr("n.ply"), HasSubstr("vertex 1 is not finite")));
+  EXPECT_THAT(
+      errorFor("n.ply", std::string(kPlyHeader) + "0 0 0\n1 0 0\n2 0 0\n3 0 0\n" + kPlyFaces),
+      HasSubstr("no face has an area"));
 }
 
 TEST(MeshFile, AbsurdCountsAreRefusedBeforeMemoryIsTaken) {

@@ -52,7 +52,8 @@ std::string compressedFile() {
   return "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z w\nSIZE 4 4 4 4\n"
          "TYPE F F F F\nCOUNT 1 1 1 1\nWIDTH 8\nHEIGHT 5\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 40\n"
          "DATA binary_compressed\n" +
-         rawBytes(static_cast<std::uint32_t>(kPackedByLiblzf.size())) + rawBytes(640u) + kPackedByLiblzf;
+         rawBytes(static_cast<std::uint32_t>(kPackedByLiblzf.size())) + rawBytes(640u) +
+         kPackedByLiblzf;
 }
 
 const char* const kAscii =
@@ -87,21 +88,57 @@ TEST(Lzf, ExpandsWhatLiblzfPacked) {
 }
 
 TEST(Lzf, ExpandsLiteralsAndOverlappingCopies) {
-  EXPECT_EQ(expandLzf(std::string("\x02" "abc", 4), 3, "data"), "abc");
-  // 'a', then a copy of 3 + 2 bytes from one byte back, then a copy of 7 + 1 + 2 from two bytes back.
-  EXPECT_EQ(expandLzf(std::string("\x00" "a\x60\x00", 4), 6, "data"), "aaaaaa");
-  EXPECT_EQ(expandLzf(std::string("\x01" "ab\xe0\x01\x01", 6), 12, "data"), "abababababab");
+  EXPECT_EQ(expandLzf(std::string("\x02"
+                                  "abc",
+                                  4),
+                      3,
+                      "data"),
+            "abc");
+  // 'a', then a copy of 3 + 2 bytes from one byte back, then a copy of 7 + 1 + 2 from two bytes
+  // back.
+  EXPECT_EQ(expandLzf(std::string("\x00"
+                                  "a\x60\x00",
+                                  4),
+                      6,
+                      "data"),
+            "aaaaaa");
+  EXPECT_EQ(expandLzf(std::string("\x01"
+                                  "ab\xe0\x01\x01",
+                                  6),
+                      12,
+                      "data"),
+            "abababababab");
 }
 
 TEST(Lzf, DamageIsAnError) {
   const auto error = [](const std::string& packed, std::size_t size) {
     return errorOf([&] { expandLzf(packed, size, "data"); });
   };
-  EXPECT_THAT(error(std::string("\x00" "a\x60", 3), 6), HasSubstr("damaged or truncated"));
-  EXPECT_THAT(error(std::string("\x00" "a\x60\x01", 4), 6), HasSubstr("damaged"));  // before the start
-  EXPECT_THAT(error(std::string("\x02" "ab", 3), 3), HasSubstr("damaged"));
-  EXPECT_THAT(error(std::string("\x02" "abc", 4), 2), HasSubstr("damaged"));
-  EXPECT_THAT(error(std::string("\x02" "abc", 4), 4), HasSubstr("damaged"));
+  EXPECT_THAT(error(std::string("\x00"
+                                "a\x60",
+                                3),
+                    6),
+              HasSubstr("damaged or truncated"));
+  EXPECT_THAT(error(std::string("\x00"
+                                "a\x60\x01",
+                                4),
+                    6),
+              HasSubstr("damaged"));  // before the start
+  EXPECT_THAT(error(std::string("\x02"
+                                "ab",
+                                3),
+                    3),
+              HasSubstr("damaged"));
+  EXPECT_THAT(error(std::string("\x02"
+                                "abc",
+                                4),
+                    2),
+              HasSubstr("damaged"));
+  EXPECT_THAT(error(std::string("\x02"
+                                "abc",
+                                4),
+                    4),
+              HasSubstr("damaged"));
   for (std::size_t length = 0; length < kPackedByLiblzf.size(); ++length) {
     EXPECT_NE(error(kPackedByLiblzf.substr(0, length), 640), "") << length;
   }
@@ -144,7 +181,8 @@ TEST(Pcd, ReadsBinaryWithAnyOrderSizeAndCount) {
 
 TEST(Pcd, ReadsAsciiWithOtherFieldsBetween) {
   const PointCloud cloud = readBytes(
-      "VERSION 0.7\nFIELDS n x _ y z\nSIZE 4 4 1 8 4\nTYPE F F U F F\nCOUNT 2 1 1 1 1\nWIDTH 1\nHEIGHT 1\n"
+      "VERSION 0.7\nFIELDS n x _ y z\nSIZE 4 4 1 8 4\nTYPE F F U F F\nCOUNT 2 1 1 1 1\nWIDTH "
+      "1\nHEIGHT 1\n"
       "POINTS 1\nDATA ascii\n7 8 1 label 2 3");
   EXPECT_EQ(cloud.points_mm.at(0), glm::vec3(1000.0f, 2000.0f, 3000.0f));
 }

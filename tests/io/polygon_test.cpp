@@ -15,7 +15,8 @@ double cutArea(const std::vector<glm::dvec3>& vertices, std::vector<glm::uvec3>&
   appendTriangles(vertices, corners, triangles);
   double area = 0.0;
   for (const glm::uvec3& t : triangles) {
-    const glm::dvec3 twice = glm::cross(vertices[t.y] - vertices[t.x], vertices[t.z] - vertices[t.x]);
+    const glm::dvec3 twice =
+        glm::cross(vertices[t.y] - vertices[t.x], vertices[t.z] - vertices[t.x]);
     EXPECT_GE(twice.z, 0.0) << "wound against the polygon";
     area += twice.z / 2.0;
   }
