@@ -87,18 +87,28 @@ Sphere boundingSphere(const Mesh& mesh) {
 double diameter(const Mesh& mesh) {
   // A vertex can only be an end of the diameter if it is farther from the centre than the best
   // half-length known: that leaves few of a large mesh to be paired.
+  struct Far {
+    glm::dvec3 point;
+    double reach;  ///< from the centre
+  };
   const Sphere sphere = boundingSphere(mesh);
-  std::vector<glm::dvec3> far(mesh.vertices.begin(), mesh.vertices.end());
-  std::sort(far.begin(), far.end(), [&](const glm::dvec3& a, const glm::dvec3& b) {
-    return glm::distance(a, sphere.center_mm) > glm::distance(b, sphere.center_mm);
-  });
+  std::vector<Far> far;
+  far.reserve(mesh.vertices.size());
+  for (const glm::vec3& vertex : mesh.vertices) {
+    far.push_back({glm::dvec3(vertex), glm::distance(glm::dvec3(vertex), sphere.center_mm)});
+  }
+  std::sort(far.begin(), far.end(), [](const Far& a, const Far& b) { return a.reach > b.reach; });
   double best = 0.0;
+  double best_squared = 0.0;
   for (std::size_t i = 0; i < far.size(); ++i) {
-    const double reach = glm::distance(far[i], sphere.center_mm);
-    if (2.0 * reach <= best) break;
+    if (2.0 * far[i].reach <= best) break;
     for (std::size_t j = i + 1; j < far.size(); ++j) {
-      if (reach + glm::distance(far[j], sphere.center_mm) <= best) break;
-      best = std::max(best, glm::distance(far[i], far[j]));
+      if (far[i].reach + far[j].reach <= best) break;
+      const glm::dvec3 gap = far[i].point - far[j].point;
+      const double squared = glm::dot(gap, gap);
+      if (squared <= best_squared) continue;
+      best_squared = squared;
+      best = std::sqrt(squared);
     }
   }
   return best;

@@ -104,7 +104,7 @@ std::string depthChannel(const Imf::Header& header, const std::string& where) {
     names += (names.empty() ? "" : ", ") + name;
     ++count;
   }
-  const std::string chosen = count == 1 ? only : depth;
+  std::string chosen = count == 1 ? only : depth;
   if (chosen.empty()) {
     throw Error(
         fmt::format("{}: no depth among the EXR channels ({}); give one channel or name it Z",

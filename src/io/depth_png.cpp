@@ -109,6 +109,7 @@ bool writeImage(const Writer& writer, png_uint_32 width, png_uint_32 height, png
 
 std::vector<png_bytep> rowPointers(Image<std::uint16_t>& image) {
   std::vector<png_bytep> rows;
+  rows.reserve(static_cast<std::size_t>(image.height()));
   for (int y = 0; y < image.height(); ++y)
     rows.push_back(reinterpret_cast<png_bytep>(image.row(y)));
   return rows;

@@ -99,11 +99,11 @@ double typicalSpacing(const std::vector<glm::dvec2>& points) {
   const double extent = std::max(robustExtent(std::move(xs)), robustExtent(std::move(ys)));
   if (!(extent > 0.0)) return 0.0;
 
-  // Grown until the cells of most points hold the neighbours: clouds cover their extent unevenly.
-  constexpr double kSmallestCells = 4.0;  // spacings of an evenly filled square
-  double cell_size = kSmallestCells * extent / std::sqrt(static_cast<double>(points.size()));
+  // Clouds cover their extent unevenly: the cells are grown until those of most points hold the
+  // neighbours, from a quarter of the spacing that an evenly filled square would have.
+  double cell_size = 0.25 * extent / std::sqrt(static_cast<double>(points.size()));
   const std::size_t step = std::max<std::size_t>(1, points.size() / kSample);
-  for (cell_size /= 16.0; cell_size <= 2.0 * extent; cell_size *= 2.0) {
+  while (cell_size <= 2.0 * extent) {
     const CellIndex index(points, cell_size);
     std::vector<double> distances;
     for (std::size_t i = 0; i < points.size(); i += step) {
@@ -111,6 +111,7 @@ double typicalSpacing(const std::vector<glm::dvec2>& points) {
     }
     const double median = medianOf(distances);
     if (std::isfinite(median)) return median;
+    cell_size *= 2.0;
   }
   return 0.0;
 }

@@ -90,7 +90,8 @@ glm::dmat3 rotationFromRows(const std::vector<double>& rows, const std::string& 
   glm::dmat3 rotation{1.0};
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {
-      rotation[column][row] = rows.at(static_cast<std::size_t>(3 * row + column));
+      rotation[column][row] =
+          rows.at(static_cast<std::size_t>(row) * 3 + static_cast<std::size_t>(column));
     }
   }
   const glm::dmat3 product = glm::transpose(rotation) * rotation;

@@ -40,7 +40,7 @@ Points parseAscii(const PcdHeader& header, std::string_view rest, const std::str
     words_per_point += static_cast<std::size_t>(header.fields[field].count);
   }
   const auto count = static_cast<std::size_t>(header.points);
-  if (count > (rest.size() + 1) / (2 * words_per_point)) failTruncated(where);
+  if (2 * words_per_point * count > rest.size() + 1) failTruncated(where);
   Points points(count);
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t word_index = 0; word_index < words_per_point; ++word_index) {

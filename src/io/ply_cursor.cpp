@@ -60,14 +60,14 @@ double PlyCursor::take(PlyType type) {
 int PlyCursor::takeListLength(const PlyProperty& property) {
   const double length = take(property.count_type);
   const std::size_t each = format_ == PlyFormat::kAscii ? 2 : plyTypeBytes(property.type);
-  const double room = static_cast<double>((rest_.size() + 1) / each);
+  const std::size_t room = (rest_.size() + 1) / each;
   if (!(length >= 0.0) || length > std::numeric_limits<int>::max()) {
     throw Error(fmt::format("{}: a PLY list \"{}\" of length {}; repair the file",
                             where_,
                             oneLine(property.name),
                             length));
   }
-  if (length > room) failTruncated();
+  if (static_cast<std::size_t>(length) > room) failTruncated();
   return static_cast<int>(length);
 }
 

@@ -28,6 +28,11 @@ double largestDiameter(const ReferenceDatabase& database) {
   return largest;
 }
 
+PoseEstimate estimateOf(const Candidate& candidate) {
+  return {candidate.object, candidate.rough, candidate.pose,
+          candidate.rough_error, candidate.view, candidate.check};
+}
+
 /// The windows around the starts of one object, and what they were made of.
 struct Windows {
   std::vector<std::unique_ptr<ResidentScene>> scenes;
@@ -47,6 +52,7 @@ class Estimator {
   /// Sect. 5 to 7 on what is left of the foreground.
   std::vector<Candidate> onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
     const Image<float> foreground_mm = masked(depth_, foreground);
+    const RefineScene scene{depth_, foreground_mm, result_.noise_mm};
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
@@ -56,18 +62,20 @@ class Estimator {
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
-          object, static_cast<int>(i), hypotheses, windows.cameras, options_.kept_per_start);
+          object, static_cast<int>(i), hypotheses, windows.cameras, scene, options_.kept_per_start);
       candidates.insert(candidates.end(), own.begin(), own.end());
     }
-    const RefineScene scene{depth_, foreground_mm, result_.noise_mm};
     {
       const ScopedTimer timer(result_.times, "coarse icp");
-      refineCoarsely(candidates, database_, scene);
-      candidates = bestDistinct(std::move(candidates), database_, options_.verified);
+      candidates = refineCoarsely(std::move(candidates), database_, scene, options_.verified);
     }
     const ScopedTimer timer(result_.times, "fine icp and check");
     refineFinely(candidates, database_, scene, stages_);
-    return bestOfEachPlace(std::move(candidates), database_);
+    candidates = bestOfEachPlace(std::move(candidates), database_);
+    if (trace != nullptr) {
+      for (const Candidate& candidate : candidates) trace->verified.push_back(estimateOf(candidate));
+    }
+    return candidates;
   }
 
  private:
@@ -86,7 +94,11 @@ class Estimator {
     const Image<std::int32_t> labels = stages_.patches(*scene);
     std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
     if (trace != nullptr) {
-      *trace = {stages_.resample(depth_, foreground, camera), channels, labels, seeds, {}, {}};
+      trace->raw_range_px = stages_.resample(depth_, foreground, camera);
+      trace->scene = channels;
+      trace->labels = labels;
+      trace->seeds = seeds;
+      trace->scene_options = channel_options;
     }
     for (Seed& seed : seeds) {
       // From here on a seed is a point of the camera frame.
@@ -129,8 +141,11 @@ class Estimator {
       windows.cameras.push_back(camera);
       const glm::dvec3 in_window = camera.camera_from_ortho.inverse() * point;
       windows.seed_range_px.push_back(static_cast<float>(in_window.z / object.pixel_mm));
-      if (trace != nullptr) trace->windows.push_back(windows.scenes.back()->download());
+      if (trace == nullptr) continue;
+      trace->windows.push_back(windows.scenes.back()->download());
+      trace->window_regions.push_back(region);
     }
+    if (trace != nullptr) trace->seed_range_px = windows.seed_range_px;
     return windows;
   }
 
@@ -142,7 +157,10 @@ class Estimator {
     for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
     std::vector<Hypothesis> hypotheses =
         stages_.search(object, scenes, windows.seed_range_px, search_options);
-    if (trace != nullptr) trace->hypotheses = hypotheses;
+    if (trace != nullptr) {
+      trace->hypotheses = hypotheses;
+      trace->search = search_options;
+    }
     return hypotheses;
   }
 
@@ -240,7 +258,7 @@ Estimate estimatePoses(const DepthImage& depth,
         estimator.onePass(foreground, result.poses.empty() ? trace : nullptr);
     if (ranked.empty() || ranked.front().check.score < options.min_score) break;
     const Candidate& best = ranked.front();
-    result.poses.push_back({best.object, best.rough, best.pose, best.rough_error, best.view, best.check});
+    result.poses.push_back(estimateOf(best));
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
     removeExplained(result.poses.back(), database.objects[static_cast<std::size_t>(best.object)], depth,
                     result.noise_mm, stages, foreground);

@@ -18,8 +18,8 @@ namespace rangepose {
 
 struct EstimateOptions {
   int starts = 3;            ///< start points (N_init, paper Sect. 6.1)
-  int kept_per_start = 24;   ///< hypotheses of a start that are refined with their view's own points
-  int verified = 8;          ///< refined hypotheses that are rendered, refined again and checked
+  int kept_per_start = 160;  ///< hypotheses of a start that are refined with their view's own points
+  int verified = 6;          ///< refined hypotheses of a start that are rendered, refined again and checked
   double min_score = 0.5;    ///< poses below are not reported
   int max_poses = 1;         ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
@@ -43,10 +43,16 @@ struct ObjectTrace {
   std::vector<Seed> seeds;
   std::vector<SceneChannels> windows;
   std::vector<Hypothesis> hypotheses;   ///< of all windows and views
+  // What the stages were called with, for those who call them again.
+  ChannelOptions scene_options;         ///< of `scene`; windows: channelOptionsOf(object)
+  std::vector<PixelBox> window_regions; ///< depth pixels that each window was made from
+  std::vector<float> seed_range_px;     ///< range at the centre of each window [px]
+  SearchOptions search;
 };
 
 struct EstimateTrace {
   Image<std::uint8_t> foreground;
+  std::vector<PoseEstimate> verified;   ///< checked poses, one for each place, best first
   std::vector<ObjectTrace> objects;     ///< one for each object of the database; first pass only
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "core/parallel.h"
 #include "pipeline/scene_window.h"
@@ -9,7 +11,6 @@
 namespace rangepose {
 namespace {
 
-constexpr int kCoarsePoints = 220;
 constexpr int kFinePoints = 900;
 constexpr int kRenderPx = 112;
 constexpr int kFineRounds = 2;
@@ -46,8 +47,7 @@ double rankOf(const CheckResult& check, const ReferenceObject& object) {
   for (const ReferenceView& view : object.views) mean_area_px += static_cast<double>(view.area_px);
   mean_area_px /= static_cast<double>(object.views.size());
   const double mean_mm2 = mean_area_px * object.pixel_mm * object.pixel_mm;
-  static double ex = getenv("AEXP") ? atof(getenv("AEXP")) : 0.5;
-  return check.score * std::pow(check.explained_mm2 / mean_mm2, ex);
+  return check.score * std::sqrt(check.explained_mm2 / mean_mm2);
 }
 
 void refineOne(Candidate& candidate,
@@ -81,54 +81,132 @@ double toleranceFor(const ReferenceObject& object, double noise_mm) {
   return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
 }
 
-std::vector<Candidate> bestCandidates(const ReferenceObject& object,
-                                      int object_index,
-                                      const std::vector<Hypothesis>& hypotheses,
-                                      const std::vector<OrthoCamera>& cameras,
-                                      int count) {
+namespace {
+
+/// Judges rough poses by a few points of their views against the depth image, with a tolerance as wide as a rough
+/// pose is wrong. Unlike Eq. 1 it sees the difference between surface that is hidden and surface that is
+/// not there, which decides on parts that are partly covered.
+void judgeRoughly(std::vector<Candidate>& candidates, const ReferenceObject& object, const RefineScene& scene) {
+  constexpr int kPoints = 40;
+  constexpr int kCandidatesPerPiece = 64;
+  CheckOptions options;
+  options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * scene.noise_mm);
+  options.max_tilt_rad = 1.2;
+  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
+      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
+      const double visible_mm2 = static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
+      candidate.check = host::checkPoints(pointsOfView(object, candidate.view, kPoints), candidate.pose,
+                                          visible_mm2, scene.depth, options);
+      candidate.rank = rankOf(candidate.check, object);
+    }
+  });
+}
+
+using Order = std::vector<const Candidate*>;
+
+template <typename Before>
+Order ordered(const std::vector<Candidate>& candidates, const Before& before) {
+  Order order;
+  for (const Candidate& candidate : candidates) order.push_back(&candidate);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](const Candidate* a, const Candidate* b) { return before(*a, *b); });
+  return order;
+}
+
+/// Takes from the two orders in turn what is not yet there, `count` in all.
+std::vector<Candidate> takeInTurn(const Order& first, const Order& second, const ReferenceObject& object, int count) {
   constexpr double kSame = 0.04;
   std::vector<Candidate> kept;
-  for (std::size_t w = 0; w < cameras.size(); ++w) {
-    std::vector<Hypothesis> own;
-    for (const Hypothesis& hypothesis : hypotheses) {
-      if (hypothesis.window == static_cast<int>(w) && hypothesis.error < kWorstError) own.push_back(hypothesis);
-    }
-    std::stable_sort(own.begin(), own.end(), [](const Hypothesis& a, const Hypothesis& b) {
-      return a.error < b.error;
-    });
-    const std::size_t first = kept.size();
-    for (const Hypothesis& hypothesis : own) {
-      if (kept.size() - first >= static_cast<std::size_t>(count)) break;
-      const Pose pose = poseOf(hypothesis, object, cameras[w]);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (const Candidate* candidate : {first[i], second[i]}) {
+      if (static_cast<int>(kept.size()) >= count) return kept;
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-        return distanceBetween(object, other.rough, pose) < kSame;
+        return distanceBetween(object, other.rough, candidate->rough) < kSame;
       });
-      if (!known) kept.push_back({object_index, hypothesis.view, hypothesis.error, pose, pose, {}, 0.0});
+      if (!known) kept.push_back(*candidate);
     }
   }
   return kept;
 }
 
-void refineCoarsely(std::vector<Candidate>& candidates,
+}  // namespace
+
+std::vector<Candidate> bestCandidates(const ReferenceObject& object,
+                                      int object_index,
+                                      const std::vector<Hypothesis>& hypotheses,
+                                      const std::vector<OrthoCamera>& cameras,
+                                      const RefineScene& scene,
+                                      int count) {
+  std::vector<Candidate> best;
+  for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
+    std::vector<Candidate> own;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (hypothesis.window != w || hypothesis.error >= kWorstError) continue;
+      const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
+      own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
+    }
+    judgeRoughly(own, object, scene);
+    const Order by_error = ordered(
+        own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
+    const Order by_rank =
+        ordered(own, [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+    const std::vector<Candidate> kept = takeInTurn(by_error, by_rank, object, count);
+    best.insert(best.end(), kept.begin(), kept.end());
+  }
+  return best;
+}
+
+namespace {
+
+/// One round of alignment with the points of the candidates' own views.
+struct CoarseRound {
+  int points;
+  int iterations;
+  double first_reach;      ///< share of the diameter
+  double last_tolerances;  ///< reach of the last iteration, in tolerances
+};
+
+void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
-                    const RefineScene& scene) {
-  parallelFor(static_cast<int>(candidates.size()), 1, [&](int begin, int end) {
+                    const RefineScene& scene,
+                    const CoarseRound& round) {
+  constexpr int kCandidatesPerPiece = 4;
+  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Candidate& candidate = candidates[static_cast<std::size_t>(i)];
       const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
       const double tolerance = toleranceFor(object, scene.noise_mm);
-      const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, kCoarsePoints);
-      const IcpOptions options = icpOptions(0.12 * object.diameter_mm, 1.5 * tolerance, 12);
-      candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.rough,
+      const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, round.points);
+      const IcpOptions options = icpOptions(
+          round.first_reach * object.diameter_mm, round.last_tolerances * tolerance, round.iterations);
+      candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.pose,
                                  object.center_mm, object.radius_mm, options)
                            .camera_from_object;
-      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
       const double visible_mm2 = static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
       candidate.check = host::checkPoints(points, candidate.pose, visible_mm2, scene.depth,
                                           checkOptionsFor(object, scene.noise_mm));
       candidate.rank = rankOf(candidate.check, object);
     }
   });
+}
+
+}  // namespace
+
+std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
+                                      const ReferenceDatabase& database,
+                                      const RefineScene& scene,
+                                      int count) {
+  // A few steps with few points tell which of many hypotheses are worth more.
+  constexpr CoarseRound kMany{70, 6, 0.12, 2.0};
+  constexpr CoarseRound kFew{220, 8, 0.06, 1.5};
+  constexpr int kFewPerKept = 4;
+  alignWithViews(candidates, database, scene, kMany);
+  candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
+  alignWithViews(candidates, database, scene, kFew);
+  return bestDistinct(std::move(candidates), database, count);
 }
 
 std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
@@ -139,13 +217,17 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
     return a.rank > b.rank;
   });
   std::vector<Candidate> best;
+  std::map<std::pair<int, int>, int> taken;
   for (const Candidate& candidate : candidates) {
-    if (static_cast<int>(best.size()) >= count) break;
+    int& taken_here = taken[{candidate.object, candidate.window}];
+    if (taken_here >= count) continue;
     const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
     const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
       return other.object == candidate.object && distanceBetween(object, other.pose, candidate.pose) < kSame;
     });
-    if (!known) best.push_back(candidate);
+    if (known) continue;
+    best.push_back(candidate);
+    ++taken_here;
   }
   return best;
 }

@@ -18,6 +18,7 @@ struct RefineScene {
 struct Candidate {
   int object = 0;
   int view = 0;
+  int window = 0;     ///< number of the start
   float rough_error = 0.0f;
   Pose rough;
   Pose pose;
@@ -25,19 +26,26 @@ struct Candidate {
   double rank = 0.0;  ///< what candidates are ordered by: score, and how much of the scene it explains
 };
 
-/// The `count` best hypotheses of each window that differ from each other, as poses. `cameras` are those of
-/// the windows.
+/// The `count` most promising hypotheses of each window that differ from each other, as poses: half by the error
+/// of the rough search, half by a glance at the depth image. `cameras` are those of the windows.
 std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       int object_index,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const std::vector<OrthoCamera>& cameras,
+                                      const RefineScene& scene,
                                       int count);
 
-/// Aligns each candidate with the points of its own view and judges it by them.
-void refineCoarsely(std::vector<Candidate>& candidates, const ReferenceDatabase& database, const RefineScene& scene);
+/// Aligns the candidates with the points of their own views and gives the `count` best of each start.
+std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
+                                      const ReferenceDatabase& database,
+                                      const RefineScene& scene,
+                                      int count);
 
-/// The `count` best candidates that differ from each other, best first.
-std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates, const ReferenceDatabase& database, int count);
+/// The `count` best candidates of each start that differ from each other: a start on something else may have
+/// candidates that look better than those of the start on the part.
+std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
+                                    const ReferenceDatabase& database,
+                                    int count);
 
 /// The candidate with the largest rank in each place, best score first: poses in one place compete to explain the
 /// same data, poses in different places may all be right and are ordered by how sure they are.

@@ -78,7 +78,14 @@ float meanRange(const Patch& patch, const Pixel& around, float radius_px) {
   return static_cast<float>(sum / count);
 }
 
-void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Seed>& seeds) {
+/// A start and how many came before it in its patch.
+struct RankedSeed {
+  Seed seed;
+  int round = 0;
+  bool small = false;
+};
+
+void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<RankedSeed>& seeds) {
   const int size = static_cast<int>(patch.size());
   const bool several = size > options.max_patch_px;
   const float around_px = several ? 0.5f * options.apart_px : std::numeric_limits<float>::max();
@@ -88,7 +95,8 @@ void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Seed>&
     if (i > 0 && inner.distance_px < options.min_distance_px) return;
     const float x = static_cast<float>(inner.x);
     const float y = static_cast<float>(inner.y);
-    seeds.push_back({x, y, inner.range_px, inner.distance_px, meanRange(patch, inner, around_px), size});
+    seeds.push_back(
+        {{x, y, inner.range_px, inner.distance_px, meanRange(patch, inner, around_px), size}, i, false});
     std::erase_if(rest, [&](const Pixel& pixel) {
       return squaredDistance(pixel, x, y) < options.apart_px * options.apart_px;
     });
@@ -100,18 +108,22 @@ void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Seed>&
 std::vector<Seed> findSeeds(const SceneChannels& scene,
                             const Image<std::int32_t>& labels,
                             const SeedOptions& options) {
-  std::vector<Seed> all;
+  std::vector<RankedSeed> all;
   for (const Patch& patch : collectPatches(scene, labels)) addSeeds(patch, options, all);
+  for (RankedSeed& candidate : all) {
+    candidate.small = candidate.seed.patch_px < options.min_patch_px ||
+                      candidate.seed.distance_px < options.min_distance_px;
+  }
+  // Small patches come last, the largest first: of a part that is mostly hidden there is nothing else.
+  std::stable_sort(all.begin(), all.end(), [](const RankedSeed& a, const RankedSeed& b) {
+    if (a.small != b.small) return b.small;
+    if (a.small) return a.seed.patch_px > b.seed.patch_px;
+    return std::pair(a.round, a.seed.mean_range_px) < std::pair(b.round, b.seed.mean_range_px);
+  });
   std::vector<Seed> seeds;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(seeds), [&](const Seed& seed) {
-    return seed.patch_px >= options.min_patch_px && seed.distance_px >= options.min_distance_px;
-  });
-  if (seeds.empty()) seeds = all;
-  std::stable_sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
-    return a.mean_range_px < b.mean_range_px;
-  });
-  if (static_cast<int>(seeds.size()) > options.count) {
-    seeds.resize(static_cast<std::size_t>(std::max(options.count, 0)));
+  for (const RankedSeed& candidate : all) {
+    if (static_cast<int>(seeds.size()) >= options.count) break;
+    seeds.push_back(candidate.seed);
   }
   return seeds;
 }

@@ -154,8 +154,14 @@ CleanView renderHeap(const std::vector<Mesh>& meshes,
 Scan scanHeap(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const ScannerOptions& options) {
+  return scanFrom(meshes, heap, scannerPose(heap, options), options);
+}
+
+Scan scanFrom(const std::vector<Mesh>& meshes,
+              const std::vector<PlacedPart>& heap,
+              const Pose& camera_from_world,
+              const ScannerOptions& options) {
   const Camera camera = scannerCamera(options);
-  const Pose camera_from_world = scannerPose(heap, options);
   checkDistance(meshes, heap, camera_from_world);
   // Beyond the border, so that a part that it cuts counts as partly hidden.
   const int margin_px = camera.width / 2;

@@ -60,4 +60,10 @@ Scan scanHeap(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const ScannerOptions& options);
 
+/// The same from a camera placed at will; distance and tilt of the options are not used.
+Scan scanFrom(const std::vector<Mesh>& meshes,
+              const std::vector<PlacedPart>& heap,
+              const Pose& camera_from_world,
+              const ScannerOptions& options);
+
 }  // namespace rangepose

@@ -12,11 +12,11 @@ struct CheckOptions {
   double max_tilt_rad = 0.6;     ///< normals of the same surface differ by at most this [rad]
   double contradicted = 2.0;     ///< weight of surface in front of the data in the score
   double missing = 0.5;          ///< weight of surface where nothing was measured
-  double hidden = 0.5;           ///< weight of surface well behind nearer data
+  double hidden = 0.3;           ///< weight of surface well behind nearer data
   double buried = 1.5;           ///< weight of surface just behind nearer data
   double buried_tolerances = 4;  ///< "just behind": by at most this many tolerances
   double weak = 1.0;             ///< weight of the part of an agreeing pixel that does not agree
-  double border = 0.7;           ///< share of the score that depends on the outline
+  double border = 0.9;           ///< share of the score that depends on the outline
 };
 
 /// Shares of the model's visible surface (of its rendered pixels); the first six add up to 1.

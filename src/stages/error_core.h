@@ -33,8 +33,8 @@ struct ErrorOptions {
   float lambda = 20.0f;
   int image_width_px = 64;       ///< width of a reference image [px]
   float range_limit_px = 8.0f;   ///< range differences count at most this much [px]; infinite in the paper
-  AreaFactor area = AreaFactor::kRoot;
-  HolePolicy holes = HolePolicy::kPaper;
+  AreaFactor area = AreaFactor::kIntended;
+  HolePolicy holes = HolePolicy::kIgnore;
   float lambdaPerPx() const { return lambda / static_cast<float>(image_width_px); }
   void check() const;
 };

@@ -24,6 +24,8 @@ void ErrorOptions::check() const {
   RP_CHECK(lambda >= 0.0f && std::isfinite(lambda), "lambda must be finite and not negative");
   RP_CHECK(image_width_px >= 8, "image_width_px must be at least 8");
   RP_CHECK(range_limit_px > 0.0f, "range_limit_px must be positive");
+  RP_CHECK(holes != HolePolicy::kLimit || std::isfinite(range_limit_px),
+           "range_limit_px must be finite where holes count as much as it");
 }
 
 float areaFactor(AreaFactor form, float area_px, float max_area_px) {

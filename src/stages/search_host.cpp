@@ -65,7 +65,7 @@ RP_ALWAYS_INLINE Float8 absolute(const Float8& v) { return v < 0.0f ? -v : v; }
 RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e, float cover_count, float range_weight) {
   Float8 cover{};
   Float8 range{};
-  Float8 lost{};
+  Float8 kept{};
   const Float8 limit = splat8(e.range_limit);
   const Float8 zero{};
   const Float8 over_hole = e.holes == HolePolicy::kLimit ? limit : zero;
@@ -83,11 +83,12 @@ RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e, float cover_count, floa
       depth = depth > limit ? limit : depth;
       depth = seen == zero ? over_hole : depth;
       range += cosine * depth;
-      lost += seen == zero ? cosine : zero;
+      kept += seen == zero ? zero : cosine;
     }
   }
-  const float ignored = e.holes == HolePolicy::kIgnore ? sum8(lost) : 0.0f;
-  return {sum8(cover), cover_count, sum8(range), range_weight - ignored};
+  // What is kept is added up, not what is lost taken away: over nothing but holes it must be exactly 0.
+  const float weight = e.holes == HolePolicy::kIgnore ? sum8(kept) : range_weight;
+  return {sum8(cover), cover_count, sum8(range), weight};
 }
 
 ErrorTerms termsAt(const PackedViews& packed,

@@ -9,7 +9,7 @@ namespace rangepose {
 
 struct SimplexOptions {
   float step_px = 2.0f;     ///< initial edge length d (Sect. 6.3.1)
-  float spread = 0.05f;     ///< stop when 2 |hi - lo| / (|hi| + |lo|) falls below
+  float spread = 0.02f;     ///< stop when 2 |hi - lo| / (|hi| + |lo|) falls below (paper: 0.05)
   int max_iterations = 40;  ///< the paper sees 20-30
   void check() const;       ///< throws Error naming the bad field
 };

@@ -72,10 +72,8 @@ TEST(CameraTest, OrthoPixelsAndPointsRoundTrip) {
   camera.pixel_mm = 0.8;
   test::Random random(2);
   for (int i = 0; i < 100; ++i) {
-    const glm::dvec3 pixel(
-        random.uniform(0, 128), random.uniform(0, 101), random.uniform(10, 500));
-    const glm::dvec3 back =
-        camera.pixelFromOrtho(camera.orthoFromPixel(pixel.x, pixel.y, pixel.z));
+    const glm::dvec3 pixel(random.uniform(0, 128), random.uniform(0, 101), random.uniform(10, 500));
+    const glm::dvec3 back = camera.pixelFromOrtho(camera.orthoFromPixel(pixel.x, pixel.y, pixel.z));
     EXPECT_LT(glm::distance(back, pixel), 1e-9);
   }
   // Between the two middle columns of an even width, on the middle row of an odd height.

@@ -48,9 +48,8 @@ glm::dmat3 exponentialSeries(const glm::dvec3& v) {
   for (int column = 0; column < 3; ++column) {
     glm::dvec3 unit(0.0);
     unit[column] = 1.0;
-    cross[column] = glm::dvec3(v.y * unit.z - v.z * unit.y,
-                               v.z * unit.x - v.x * unit.z,
-                               v.x * unit.y - v.y * unit.x);
+    cross[column] = glm::dvec3(
+        v.y * unit.z - v.z * unit.y, v.z * unit.x - v.x * unit.z, v.x * unit.y - v.y * unit.x);
   }
   glm::dmat3 term(1.0);
   glm::dmat3 sum(1.0);
@@ -101,7 +100,8 @@ TEST(PoseTest, RotationFromVectorTurnsXToYAboutZ) {
 
 TEST(PoseTest, AngleBetweenFindsTheAngleThatWasTurned) {
   Random random(4);
-  // Below 1e-7 acos of a trace gives 0 or noise: a refinement that steps by less would look converged.
+  // Below 1e-7 acos of a trace gives 0 or noise: a refinement that steps by less would look
+  // converged.
   for (const double angle : {0.0, 1e-9, 1e-7, 1e-4, 0.02, 1.0, 3.0}) {
     for (int i = 0; i < 20; ++i) {
       const glm::dmat3 a = randomPose(random).rotation;

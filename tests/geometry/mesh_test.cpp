@@ -40,9 +40,8 @@ Mesh randomCloud(Random& random, int points) {
   const double flat = random.uniform(0.0, 1.0);
   const double shift = random.uniform(-1000.0, 1000.0);
   for (int i = 0; i < points; ++i) {
-    mesh.vertices.emplace_back(random.uniform(-50, 50) + shift,
-                               random.uniform(-50, 50),
-                               random.uniform(-50, 50) * flat);
+    mesh.vertices.emplace_back(
+        random.uniform(-50, 50) + shift, random.uniform(-50, 50), random.uniform(-50, 50) * flat);
   }
   return mesh;
 }
@@ -121,7 +120,8 @@ TEST(MeshTest, DiameterOfKnownShapes) {
   Mesh point;
   point.vertices = {{5, 5, 5}, {5, 5, 5}};
   EXPECT_EQ(diameter(point), 0.0);
-  // All vertices are equally far from the centre: nothing can be skipped, the answer must still be right.
+  // All vertices are equally far from the centre: nothing can be skipped, the answer must still be
+  // right.
   Mesh ring;
   for (int i = 0; i < 101; ++i) {
     const double angle = 2.0 * 3.14159265358979 * i / 101;

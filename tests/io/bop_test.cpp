@@ -152,11 +152,10 @@ TEST(Bop, DamagedFilesAreErrorsThatNameTheEntry) {
   EXPECT_THAT(error(infos, R"({"1": {"diameter": 1, "symmetries_discrete":
                   [[2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]]}})"),
               HasSubstr("not a rotation"));
-  EXPECT_THAT(
-      error(
-          infos,
-          R"({"1": {"diameter": 1, "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}]}})"),
-      HasSubstr("axis"));
+  EXPECT_THAT(error(infos,
+                    R"({"1": {"diameter": 1, 
+                  "symmetries_continuous": [{"axis": [0, 0, 0], "offset": [0, 0, 0]}]}})"),
+              HasSubstr("axis"));
   EXPECT_THAT(error("test_targets_bop19.json", R"({"im_id": 1})"), HasSubstr("JSON array"));
   EXPECT_THAT(error("test_targets_bop19.json", R"([{"im_id": 1}])"),
               AllOf(HasSubstr("entry 0"), HasSubstr("scene_id")));

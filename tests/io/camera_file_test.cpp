@@ -17,7 +17,8 @@ using testing::AllOf;
 using testing::HasSubstr;
 
 const char* const kGood =
-    R"({"cam_K": [500.5, 0, 319.5, 0, 501, 239, 0, 0, 1], "depth_scale": 0.1, "width": 640, "height": 480})";
+    R"({"cam_K": [500.5, 0, 319.5, 0, 501, 239, 0, 0, 1], "depth_scale": 0.1,
+        "width": 640, "height": 480})";
 
 std::string cameraError(const std::string& text) {
   return errorOf([&] { parseCamera(text, "camera file c.json"); });
@@ -45,7 +46,8 @@ TEST(CameraFile, SizeAndScaleMayBeMissing) {
 
 TEST(CameraFile, ReadsTheSeparateFieldsOfBop) {
   const Camera camera = parseCamera(
-      R"({"cx": 325.26, "cy": 242.04, "depth_scale": 1.0, "fx": 572.4, "fy": 573.5, "height": 480, "width": 640})",
+      R"({"cx": 325.26, "cy": 242.04, "depth_scale": 1.0, "fx": 572.4, "fy": 573.5,
+          "height": 480, "width": 640})",
       "c");
   EXPECT_EQ(camera.fx, 572.4);
   EXPECT_EQ(camera.fy, 573.5);
@@ -55,7 +57,8 @@ TEST(CameraFile, ReadsTheSeparateFieldsOfBop) {
 
 TEST(CameraFile, OrthographicScanHasItsCentreInTheMiddle) {
   const Camera camera = parseCamera(
-      R"({"orthographic": true, "pixel_size": 0.5, "width": 101, "height": 50, "depth_scale": 0.01})",
+      R"({"orthographic": true, "pixel_size": 0.5, "width": 101, "height": 50,
+          "depth_scale": 0.01})",
       "c");
   EXPECT_TRUE(camera.orthographic);
   EXPECT_EQ(camera.pixel_size_mm, 0.5);
@@ -147,7 +150,8 @@ TEST(CameraFile, MissingEmptyFolderAndTruncatedFilesAreErrors) {
 }
 
 const char* const kBin =
-    R"({"cam_R_bin2c": [0, -1, 0, 1, 0, 0, 0, 0, 1], "cam_t_bin2c": [1, 2, 3], "inner_size": [40, 50, 6]})";
+    R"({"cam_R_bin2c": [0, -1, 0, 1, 0, 0, 0, 0, 1], "cam_t_bin2c": [1, 2, 3],
+        "inner_size": [40, 50, 6]})";
 
 TEST(BinFile, ReadsRowByRow) {
   const TempFolder folder;
@@ -158,7 +162,7 @@ TEST(BinFile, ReadsRowByRow) {
 }
 
 TEST(BinFile, BadFieldsAreNamed) {
-  const auto error = [](std::string from, const std::string& to) {
+  const auto error = [](const std::string& from, const std::string& to) {
     std::string text = kBin;
     text.replace(text.find(from), from.size(), to);
     return errorOf([&] { parseBinBox(text, "bin file b.json"); });

@@ -161,6 +161,7 @@ TEST(CloudDepth, MadeUpCameraHasAboutOnePointAPixelForAScatteredScan) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> side(-100.0f, 100.0f);
   std::vector<glm::vec3> points;
+  points.reserve(20000);
   for (int i = 0; i < 20000; ++i) points.emplace_back(side(random), side(random), 500.0f);
   const PointCloud cloud = unorganised(std::move(points));
   const DepthImage image = depthFromCloud(cloud, std::nullopt);

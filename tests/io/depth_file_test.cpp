@@ -33,6 +33,7 @@ Camera camera(double depth_scale) {
 
 std::vector<float> ramp() {
   std::vector<float> values;
+  values.reserve(kWidth * kHeight);
   for (int i = 0; i < kWidth * kHeight; ++i) values.push_back(static_cast<float>(i * 149 % 65536));
   return values;
 }

@@ -73,7 +73,9 @@ void writeTiles(
       for (int i = 0; i < kSide * kSide; ++i) {
         const int x = std::min(x0 + i % kSide, width - 1);
         const int y = std::min(y0 + i / kSide, height - 1);
-        tile += tiffSample(layout, values[static_cast<std::size_t>(y * width + x)]);
+        tile += tiffSample(layout,
+                           values.at(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                                     static_cast<std::size_t>(x)));
       }
       TIFFWriteTile(
           tiff, tile.data(), static_cast<std::uint32_t>(x0), static_cast<std::uint32_t>(y0), 0, 0);
@@ -106,11 +108,11 @@ std::string makeTiff(int width,
     writeTiles(tiff, width, height, layout, values);
   } else {
     TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 5);
+    std::size_t next = 0;
     for (int y = 0; y < height; ++y) {
       std::string row;
       for (int i = 0; i < width * layout.channels; ++i) {
-        row +=
-            tiffSample(layout, values[static_cast<std::size_t>(y * width * layout.channels + i)]);
+        row += tiffSample(layout, values.at(next++));
       }
       TIFFWriteScanline(tiff, row.data(), static_cast<std::uint32_t>(y), 0);
     }

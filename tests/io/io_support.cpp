@@ -11,6 +11,12 @@
 
 #include "core/error.h"
 
+// assimp does not free what it had built when an import fails.
+extern "C" const char* __lsan_default_suppressions();   // NOLINT(bugprone-reserved-identifier)
+extern "C" const char* __lsan_default_suppressions() {  // NOLINT(bugprone-reserved-identifier)
+  return "leak:libassimp";
+}
+
 namespace rangepose::test {
 
 namespace fs = std::filesystem;
@@ -27,7 +33,7 @@ TempFolder::~TempFolder() {
 }
 
 fs::path TempFolder::write(const std::string& name, std::string_view bytes) const {
-  const fs::path path = path_ / name;
+  fs::path path = path_ / name;
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
   return path;
@@ -42,7 +48,7 @@ std::string errorOf(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
-    const std::string text = error.what();
+    std::string text = error.what();
     EXPECT_FALSE(text.empty());
     EXPECT_EQ(text.find('\n'), std::string::npos) << text;
     return text;

@@ -34,7 +34,8 @@ const std::string kPackedByLiblzf = fromHex(
     "12030180bee015030100bfe015030040201fe013030080201fe01303412fe09403e09200010000");
 
 std::array<float, 4> packedPoint(int i) {
-  return {0.5f * static_cast<float>(i % 8), -0.25f * static_cast<float>(i / 8), 2.0f, 0.0f};
+  const int row = i / 8;
+  return {0.5f * static_cast<float>(i % 8), -0.25f * static_cast<float>(row), 2.0f, 0.0f};
 }
 
 PointCloud readBytes(const std::string& bytes, LengthUnit unit = LengthUnit::kMetre) {

@@ -40,7 +40,8 @@ TEST(OpenCvTest, DistanceIsDistanceTransform) {
     std::transform(edges.begin(), edges.end(), far.begin(), [](float edge) {
       return static_cast<unsigned char>(edge == 0.0f ? 1 : 0);
     });
-    if (cv::countNonZero(far) == static_cast<int>(far.total())) continue;  // no edge: undefined there
+    if (cv::countNonZero(far) == static_cast<int>(far.total()))
+      continue;  // no edge: undefined there
     cv::Mat1f exact;
     cv::distanceTransform(far, exact, cv::DIST_L2, cv::DIST_MASK_PRECISE);
     const Image<float> actual = host::distance(scene.range_px, edges, kPasses);
@@ -77,7 +78,8 @@ TEST(OpenCvTest, PatchesAreConnectedComponents) {
         ASSERT_EQ(ours_to_theirs.emplace(ours, theirs).first->second, theirs) << scene.name;
       }
     }
-    const int background = inside.total() > static_cast<std::size_t>(cv::countNonZero(inside)) ? 1 : 0;
+    const int background =
+        inside.total() > static_cast<std::size_t>(cv::countNonZero(inside)) ? 1 : 0;
     EXPECT_EQ(static_cast<int>(ours_to_theirs.size()), components - 1 + background) << scene.name;
   }
 }

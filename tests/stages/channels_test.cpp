@@ -1,10 +1,9 @@
 // Median, edges, distances and patches against their definitions (paper Sect. 5).
-#include "stages/channels_host.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "stages/channels_host.h"
 #include "support/oracle.h"
 #include "support/range_scenes.h"
 
@@ -82,10 +81,11 @@ TEST(DistanceTest, SitesAreEdgesAndDistancesAreTheirs) {
   }
 }
 
-/// Handing sites on between 8 neighbours is not an exact transform: where the cells of three sites meet at a
-/// sharp angle, a pixel may never hear of its nearest site. The second nearest is less than a pixel farther.
+/// Handing sites on between 8 neighbours is not an exact transform: where the cells of three sites
+/// meet at a sharp angle, a pixel may never hear of its nearest site. The second nearest is less
+/// than a pixel farther. In random scenes this is rarer than once in 100,000 pixels.
 constexpr double kPropagationPx = 0.3;
-constexpr double kPropagationShare = 0.002;
+constexpr double kPropagationShare = 0.0005;
 
 TEST(DistanceTest, NearestEdgeIsFoundWithinTheReach) {
   int total = 0;

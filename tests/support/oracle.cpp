@@ -103,17 +103,16 @@ Terms errorTerms(const ReferenceObject& object,
       const int y = v + margin + shift_y;
       const bool inside = window.range_px.contains(x, y);
       const double seen = inside ? window.range_px.at(x, y) : 0.0;
+      const double predicted = static_cast<double>(texel.g) - object.size + translation.z;
       if (texel.r > 0.0f) {  // Eq. 4
-        terms.cover_sum += std::fabs((inside ? window.distance_px.at(x, y) : background) - texel.r);
+        const double there = inside ? window.distance_px.at(x, y) : background;
+        terms.cover_sum += std::fabs(there - texel.r);
         terms.cover_count += 1.0;
       }
       if (texel.g == 0.0f) continue;  // Eq. 6: c = 0
       double weight = texel.a;
-      double d = 0.0;  // Eq. 5
       const double limit = options.range_limit_px;
-      if (seen != 0.0) {
-        d = std::min(limit, std::fabs(seen - (texel.g - object.size + translation.z)));
-      }
+      double d = seen != 0.0 ? std::min(limit, std::fabs(seen - predicted)) : 0.0;  // Eq. 5
       if (seen == 0.0 && options.holes == HolePolicy::kIgnore) weight = 0.0;
       if (seen == 0.0 && options.holes == HolePolicy::kLimit) d = limit;
       terms.range_sum += weight * d;

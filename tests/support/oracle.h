@@ -1,5 +1,5 @@
-// Slow, plain answers to compare the stages with: written from the paper and from definitions, not from the
-// stages' code.
+// Slow, plain answers to compare the stages with: written from the paper and from definitions, not
+// from the stages' code.
 #pragma once
 
 #include <array>
@@ -16,13 +16,15 @@ namespace rangepose::test::oracle {
 /// Middle of the nine sorted values; outside of the image the border repeats.
 Image<float> median(const Image<float>& range);
 
-/// 1 where a pixel with a range differs from any of its 8 neighbours in the image by more than the threshold.
+/// 1 where a pixel with a range differs from any of its 8 neighbours in the image by more than the
+/// threshold.
 Image<float> edges(const Image<float>& range, float threshold);
 
 /// Squared distance to the nearest edge pixel of the image [px^2], -1 where there is none.
 Image<double> nearestEdgeSquared(const Image<float>& edges);
 
-/// Smallest index of the 4-connected region of each pixel, by flooding; kNoPatch on edges and background.
+/// Smallest index of the 4-connected region of each pixel, by flooding; kNoPatch on edges and
+/// background.
 Image<std::int32_t> patches(const Image<float>& range, const Image<float>& edges);
 
 struct Terms {
@@ -32,8 +34,8 @@ struct Terms {
   double range_weight = 0.0;
 };
 
-/// The four sums of Eq. 2-6 in double, over all pixels of a tile. `background` is the signed distance
-/// outside of the window.
+/// The four sums of Eq. 2-6 in double, over all pixels of a tile. `background` is the signed
+/// distance outside of the window.
 Terms errorTerms(const ReferenceObject& object,
                  int view,
                  const SceneChannels& window,

@@ -10,7 +10,8 @@
 
 namespace rangepose::test {
 
-/// Facets of 180 / steps degrees; they lie inside of the sphere by at most radius * (1.6 / steps)^2.
+/// Facets of 180 / steps degrees; they lie inside of the sphere by at most radius * (1.6 /
+/// steps)^2.
 inline Mesh sphereMesh(const glm::dvec3& center, double radius, int steps) {
   Mesh mesh;
   mesh.name = "sphere";
@@ -40,7 +41,9 @@ inline Mesh plateMesh(double width, double height) {
   Mesh mesh;
   mesh.name = "plate";
   for (int corner = 0; corner < 4; ++corner) {
-    mesh.vertices.emplace_back((corner % 2 - 0.5) * width, (corner / 2 - 0.5) * height, 0.0);
+    const double x = (corner & 1) != 0 ? 0.5 : -0.5;
+    const double y = (corner & 2) != 0 ? 0.5 : -0.5;
+    mesh.vertices.emplace_back(x * width, y * height, 0.0);
   }
   mesh.triangles = {{0, 1, 3}, {0, 3, 2}};
   return mesh;
@@ -64,13 +67,22 @@ inline Camera parallelCamera(int width, int height, double pixel_mm) {
   return camera;
 }
 
+/// The rotation of a part of which a camera sees what lies towards `-direction`; given in the
+/// part's frame.
+inline glm::dmat3 looking(const glm::dvec3& direction) {
+  const glm::dvec3 z = glm::normalize(direction);
+  const glm::dvec3 x = glm::normalize(glm::cross(glm::dvec3(0.0, 0.3, 1.0), z));
+  return glm::transpose(glm::dmat3(x, glm::cross(z, x), z));
+}
+
 inline SurfaceWindow wholeWindow(const Camera& camera) {
   return {0, 0, camera.width, camera.height, 1};
 }
 
 /// Draws a mesh into a depth image: the nearer surface wins.
 inline void measure(DepthImage& image, const Mesh& mesh, const Pose& camera_from_object) {
-  if (image.depth_mm.empty()) image.depth_mm = Image<float>(image.camera.width, image.camera.height);
+  if (image.depth_mm.empty())
+    image.depth_mm = Image<float>(image.camera.width, image.camera.height);
   const Image<SurfaceTexel> surface =
       host::renderSurface(mesh, image.camera, camera_from_object, wholeWindow(image.camera));
   for (std::size_t i = 0; i < surface.size(); ++i) {

@@ -1,0 +1,32 @@
+// Which path the stages take: what the user asked for, and what this machine has.
+#pragma once
+
+#include <memory>
+#include <string_view>
+
+#include "gles/context.h"
+#include "stages/stage_set.h"
+
+namespace rangepose {
+
+enum class PathRequest { kAuto, kHost, kGlsl, kCuda };
+
+/// "auto", "host", "glsl" or "cuda"; anything else throws Error.
+PathRequest parsePathRequest(std::string_view text);
+
+/// The stages of a path with what they run on.
+struct PathStages {
+  std::unique_ptr<gles::Context> context;  ///< of the glsl path; outlives the stages
+  std::unique_ptr<StageSet> stages;
+};
+
+/// kAuto takes glsl on a hardware GPU, else host: on a software rasteriser a full search in
+/// fragment shaders is 50 to 100 times slower than the host path. Throws Unavailable when the path
+/// that was asked for does not work here.
+PathStages openPath(PathRequest request);
+
+/// A context where this machine has one; null (kAuto only) or Unavailable where it has none. With
+/// `hardware_only` kAuto passes over software rasterisers. kHost gives null.
+std::unique_ptr<gles::Context> openContext(PathRequest request, bool hardware_only);
+
+}  // namespace rangepose

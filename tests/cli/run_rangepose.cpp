@@ -1,0 +1,84 @@
+#include "cli/run_rangepose.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace rangepose::test {
+namespace {
+
+/// A file without a name, for one of the streams.
+class Capture {
+ public:
+  Capture() {
+    std::string name = (std::filesystem::temp_directory_path() / "rangepose_cli_XXXXXX").string();
+    file_ = mkostemp(name.data(), O_CLOEXEC);
+    if (file_ < 0) throw std::runtime_error("no temporary file");
+    unlink(name.c_str());
+  }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+  ~Capture() { close(file_); }
+
+  int file() const { return file_; }
+  std::string text() const {
+    std::string text;
+    char buffer[4096];
+    lseek(file_, 0, SEEK_SET);
+    for (ssize_t count = 0; (count = read(file_, buffer, sizeof buffer)) > 0;) {
+      text.append(buffer, static_cast<std::size_t>(count));
+    }
+    return text;
+  }
+
+ private:
+  int file_ = -1;
+};
+
+std::vector<char*> pointers(std::vector<std::string>& texts) {
+  std::vector<char*> result;
+  for (std::string& text : texts) result.push_back(text.data());
+  result.push_back(nullptr);
+  return result;
+}
+
+/// `added` first: where a name comes twice, the first one counts.
+std::vector<std::string> environmentWith(const std::vector<std::string>& added) {
+  std::vector<std::string> all = added;
+  for (char** entry = environ; *entry != nullptr; ++entry) all.emplace_back(*entry);
+  return all;
+}
+
+}  // namespace
+
+RunResult runRangepose(const std::vector<std::string>& arguments,
+                       const std::filesystem::path& folder,
+                       const std::vector<std::string>& environment) {
+  const Capture out;
+  const Capture err;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+  posix_spawn_file_actions_adddup2(&actions, out.file(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err.file(), STDERR_FILENO);
+  std::vector<std::string> words = {RP_EXECUTABLE};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<std::string> variables = environmentWith(environment);
+  pid_t child = 0;
+  const int failure = posix_spawn(
+      &child, RP_EXECUTABLE, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+  posix_spawn_file_actions_destroy(&actions);
+  if (failure != 0) throw std::runtime_error("cannot start " RP_EXECUTABLE);
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, out.text(), err.text()};
+}
+
+}  // namespace rangepose::test

@@ -1,0 +1,25 @@
+// Runs the real executable and keeps what it said.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace rangepose::test {
+
+struct RunResult {
+  int exit_code = -1;  ///< 128 + signal where one ended it
+  std::string out;
+  std::string err;
+};
+
+/// Runs rangepose with the arguments, in `folder`, with "NAME=value" added to the environment. No
+/// shell is involved.
+RunResult runRangepose(const std::vector<std::string>& arguments,
+                       const std::filesystem::path& folder,
+                       const std::vector<std::string>& environment = {});
+
+/// Lets no EGL driver be found.
+inline const std::vector<std::string> kNoEgl = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};
+
+}  // namespace rangepose::test

@@ -1,0 +1,97 @@
+// Points of the partial mesh: refinement aligns exactly these, so each must lie on the part.
+#include "stages/surface_points.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "stages/reference_host.h"
+#include "support/box_mesh.h"
+#include "support/oracle.h"
+#include "support/shapes.h"
+
+namespace rangepose {
+namespace {
+
+namespace oracle = test::oracle;
+
+TEST(SurfacePointsTest, RenderedPointsLieOnTheirFaces) {
+  const Mesh mesh = test::meshOf(test::bracketBoxes());
+  const Sphere sphere = boundingSphere(mesh);
+  for (const Camera& camera :
+       {test::pinholeCamera(320, 240, 600.0), test::parallelCamera(320, 240, 0.5)}) {
+    for (const glm::dvec3 turn : {glm::dvec3(0.7, 0.5, 0.1), {-2.0, 0.4, 0.9}}) {
+      const Pose pose{rotationFromVector(turn), {15.0, -20.0, 500.0}};
+      for (const int max_pixels : {1000, 40}) {
+        const SurfaceWindow window =
+            windowAround(camera, pose * sphere.center_mm, sphere.radius_mm, max_pixels);
+        const Image<SurfaceTexel> surface = host::renderSurface(mesh, camera, pose, window);
+        const std::vector<SurfacePoint> points =
+            pointsOfSurface(surface, camera, window, pose, 300);
+        ASSERT_GT(points.size(), 50U);
+        EXPECT_LT(points.size(), 330U);
+        for (const SurfacePoint& point : points) {
+          const oracle::NearestFace face = oracle::nearestFace(mesh, glm::dvec3(point.position_mm));
+          ASSERT_LT(face.distance_mm, 1e-3);
+          ASSERT_NEAR(glm::length(point.normal), 1.0, 1e-5);
+          const glm::dvec3 in_camera = pose * glm::dvec3(point.position_mm);
+          const glm::dvec3 normal = pose.rotation * glm::dvec3(point.normal);
+          ASSERT_LT(glm::dot(normal, camera.viewingRay(in_camera)), 1e-6)
+              << "turned away from the viewer";
+        }
+      }
+    }
+  }
+}
+
+TEST(SurfacePointsTest, RenderedNormalsAreThoseOfTheFace) {
+  const Mesh plate = test::plateMesh(80.0, 60.0);
+  const Camera camera = test::pinholeCamera(320, 240, 600.0);
+  const Pose pose{rotationFromVector({0.5, -0.3, 1.0}), {0.0, 0.0, 500.0}};
+  const SurfaceWindow window = windowAround(camera, pose.translation_mm, 50.0, 1000);
+  const Image<SurfaceTexel> surface = host::renderSurface(plate, camera, pose, window);
+  const std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, pose, 500);
+  ASSERT_GT(points.size(), 200U);
+  for (const SurfacePoint& point : points) {
+    // Of the two sides of a thin plate the visible one.
+    const double side = pose.rotation[2].z > 0.0 ? -1.0 : 1.0;
+    ASSERT_LT(glm::distance(glm::dvec3(point.normal), glm::dvec3(0, 0, side)), 1e-5);
+    ASSERT_NEAR(point.position_mm.z, 0.0, 1e-3);
+  }
+}
+
+TEST(SurfacePointsTest, PointsOfAViewLieOnThePart) {
+  ReferenceObject object = test::objectOf(test::bracketBoxes(), 20, 64, 31);
+  host::renderReferences(object, {}, {});
+  int points_seen = 0;
+  int agreeing = 0;
+  for (int view = 0; view < 20; ++view) {
+    const glm::dmat3& rotation = object.views[static_cast<std::size_t>(view)].rotation;
+    const std::vector<SurfacePoint> points = pointsOfView(object, view, 200);
+    EXPECT_LT(points.size(), 260U);
+    for (const SurfacePoint& point : points) {
+      const oracle::NearestFace face =
+          oracle::nearestFace(object.mesh, glm::dvec3(point.position_mm));
+      ASSERT_LT(face.distance_mm, 1e-3) << "view " << view;
+      ASSERT_LT((rotation * glm::dvec3(point.normal)).z, 0.0) << "turned away from the viewer";
+      ++points_seen;
+      agreeing += std::abs(glm::dot(face.normal, glm::dvec3(point.normal))) > 0.999 ? 1 : 0;
+    }
+  }
+  EXPECT_GT(points_seen, 1200);
+  // Differences of neighbours mix two faces along their crease; elsewhere they are exact.
+  EXPECT_GT(agreeing, 0.8 * points_seen);
+}
+
+TEST(SurfacePointsTest, AnEmptyViewOrSurfaceHasNoPoints) {
+  ReferenceObject object = test::objectOf(test::bracketBoxes(), 1, 64, 31);
+  object.atlas = Image<ReferenceTexel>(64, 64, ReferenceTexel(0.0f));
+  EXPECT_TRUE(pointsOfView(object, 0, 100).empty());
+  const Camera camera = test::pinholeCamera(32, 24, 60.0);
+  EXPECT_TRUE(pointsOfSurface({}, camera, {}, {}, 100).empty());
+  const Image<SurfaceTexel> nothing(32, 24, SurfaceTexel(0.0f));
+  EXPECT_TRUE(pointsOfSurface(nothing, camera, test::wholeWindow(camera), {}, 100).empty());
+}
+
+}  // namespace
+}  // namespace rangepose

@@ -1,0 +1,155 @@
+#include "support/pose_trials.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <string>
+
+#include "sim/scanner.h"
+#include "support/box_mesh.h"
+
+namespace rangepose::test {
+namespace {
+
+double uniform(std::mt19937_64& random, double low, double high) {
+  return low + (high - low) * (static_cast<double>(random() >> 11) * 0x1.0p-53);
+}
+
+/// Shoemake 1992.
+glm::dmat3 randomRotation(std::mt19937_64& random) {
+  const double u = uniform(random, 0.0, 1.0);
+  const double a = uniform(random, 0.0, 2.0 * std::numbers::pi);
+  const double b = uniform(random, 0.0, 2.0 * std::numbers::pi);
+  const double x = std::sqrt(1.0 - u) * std::sin(a);
+  const double y = std::sqrt(1.0 - u) * std::cos(a);
+  const double z = std::sqrt(u) * std::sin(b);
+  const double w = std::sqrt(u) * std::cos(b);
+  return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
+          2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
+          2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
+}
+
+/// A ball: what hides a part here must not look like one, flat or round as they are.
+Mesh ball(double radius_mm) {
+  constexpr int kRings = 24;
+  constexpr int kSectors = 48;
+  Mesh mesh;
+  mesh.name = "ball";
+  for (int ring = 0; ring <= kRings; ++ring) {
+    const double polar = std::numbers::pi * ring / kRings;
+    for (int sector = 0; sector < kSectors; ++sector) {
+      const double turn = 2.0 * std::numbers::pi * sector / kSectors;
+      mesh.vertices.emplace_back(radius_mm * std::sin(polar) * std::cos(turn),
+                                 radius_mm * std::sin(polar) * std::sin(turn),
+                                 radius_mm * std::cos(polar));
+    }
+  }
+  const auto vertex = [](int ring, int sector) {
+    return static_cast<unsigned>(ring * kSectors + sector % kSectors);
+  };
+  for (int ring = 0; ring < kRings; ++ring) {
+    for (int sector = 0; sector < kSectors; ++sector) {
+      mesh.triangles.emplace_back(vertex(ring, sector), vertex(ring + 1, sector), vertex(ring + 1, sector + 1));
+      mesh.triangles.emplace_back(vertex(ring, sector), vertex(ring + 1, sector + 1), vertex(ring, sector + 1));
+    }
+  }
+  return cleaned(mesh);
+}
+
+double hiddenShare(const std::vector<Mesh>& meshes,
+                   const std::vector<PlacedPart>& parts,
+                   const Camera& camera,
+                   const Pose& camera_from_world) {
+  const CleanView view = renderHeap(meshes, parts, camera, camera_from_world);
+  const auto seen = std::count(view.part.begin(), view.part.end(), std::int16_t{0});
+  return 1.0 - static_cast<double>(seen) / std::max(1, view.silhouette_px[0]);
+}
+
+}  // namespace
+
+PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double hidden) {
+  std::mt19937_64 random(seed);
+  const Sphere sphere = boundingSphere(mesh);
+  PlacedPart part;
+  part.mesh = 0;
+  part.world_from_object.rotation = randomRotation(random);
+  const glm::dvec3 center(uniform(random, -40.0, 40.0), uniform(random, -30.0, 30.0), 1.3 * sphere.radius_mm);
+  part.world_from_object.translation_mm = center - part.world_from_object.rotation * sphere.center_mm;
+  ScannerOptions options;
+  options.noise = noise;
+  options.seed = seed;
+  // Looks at the middle of the table, not at the part.
+  PlacedPart aim;
+  aim.world_from_object.translation_mm = glm::dvec3(0.0, 0.0, center.z);
+  const Camera camera = scannerCamera(options);
+  const Pose camera_from_world = scannerPose({aim}, options);
+  const double ball_mm = 0.9 * sphere.radius_mm;
+  const std::vector<Mesh> meshes = {mesh, ball(ball_mm)};
+  std::vector<PlacedPart> parts = {part};
+  if (hidden > 0.0) {
+    // Pushed from far out towards the line of sight until it hides enough.
+    const double side = uniform(random, 0.0, 2.0 * std::numbers::pi);
+    const double height = center.z + sphere.radius_mm + ball_mm + uniform(random, 0.0, 20.0);
+    const glm::dvec3 eye = camera_from_world.inverse().translation_mm;
+    const glm::dvec3 on_sight = center + (eye - center) * ((height - center.z) / (eye.z - center.z));
+    double near = 0.0;
+    double far = 3.0 * sphere.radius_mm;
+    for (int step = 0; step < 9; ++step) {
+      const double distance = 0.5 * (near + far);
+      PlacedPart occluder;
+      occluder.mesh = 1;
+      occluder.world_from_object.translation_mm =
+          on_sight + distance * glm::dvec3(std::cos(side), std::sin(side), 0.0);
+      parts.resize(1);
+      parts.push_back(occluder);
+      (hiddenShare(meshes, parts, camera, camera_from_world) < hidden ? far : near) = distance;
+    }
+  }
+  const Scan scan = scanFrom(meshes, parts, camera_from_world, options);
+  PoseTrial trial;
+  trial.image = scan.image;
+  trial.camera_from_object = scan.truth[0].camera_from_object;
+  trial.hidden = hidden > 0.0 ? hiddenShare(meshes, parts, camera, camera_from_world) : 0.0;
+  return trial;
+}
+
+std::vector<Pose> symmetriesOf(const std::string& part, const Mesh& mesh) {
+  // Order and axis of the rotations; see models/README.md.
+  int order = 1;
+  glm::dvec3 axis(0.0, 0.0, 1.0);
+  if (part == "bolt") order = 6;
+  if (part == "t_pipe") order = 2;
+  if (part == "elbow") {
+    order = 2;
+    axis = glm::normalize(glm::dvec3(1.0, 1.0, 0.0));
+  }
+  const Sphere sphere = boundingSphere(mesh);
+  std::vector<Pose> symmetries;
+  for (int k = 0; k < order; ++k) {
+    Pose symmetry;
+    symmetry.rotation = rotationFromVector(axis * (2.0 * std::numbers::pi * k / order));
+    symmetry.translation_mm = sphere.center_mm - symmetry.rotation * sphere.center_mm;
+    symmetries.push_back(symmetry);
+  }
+  return symmetries;
+}
+
+double vertexError(const Mesh& mesh,
+                   const std::vector<Pose>& symmetries,
+                   const Pose& estimate,
+                   const Pose& truth) {
+  double best = std::numeric_limits<double>::max();
+  for (const Pose& symmetry : symmetries) {
+    const Pose same = truth * symmetry;
+    double sum = 0.0;
+    for (const glm::vec3& vertex : mesh.vertices) {
+      sum += glm::distance(estimate * glm::dvec3(vertex), same * glm::dvec3(vertex));
+    }
+    best = std::min(best, sum / static_cast<double>(mesh.vertices.size()));
+  }
+  return best;
+}
+
+}  // namespace rangepose::test

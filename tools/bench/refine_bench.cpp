@@ -1,0 +1,67 @@
+// Refinement with the points of a view, then with rendered ones, and the check.
+#include "bench/fixture.h"
+#include "bench/measure.h"
+#include "pipeline/refine.h"
+
+namespace rangepose::bench {
+namespace {
+
+constexpr int kViews = 1024;
+
+Image<float> foregroundDepth(Fixture& fixture) {
+  Image<float> depth = fixture.demo().depth_mm;
+  const Image<std::uint8_t>& mask = fixture.trace(kViews).foreground;
+  for (std::size_t i = 0; i < depth.size(); ++i) {
+    if (mask.data()[i] == 0) depth.data()[i] = 0.0f;
+  }
+  return depth;
+}
+
+std::vector<Candidate> roughCandidates(Fixture& fixture) {
+  const ObjectTrace& trace = fixture.trace(kViews).objects.front();
+  std::vector<OrthoCamera> cameras;
+  for (const SceneChannels& window : trace.windows) cameras.push_back(window.camera);
+  return bestCandidates(fixture.database(kViews).objects.front(),
+                        0,
+                        trace.hypotheses,
+                        cameras,
+                        EstimateOptions().kept_per_start);
+}
+
+void addCoarse(Fixture& fixture) {
+  add("BM_CoarseRefinement/host", [&fixture](benchmark::State& state) {
+    const Image<float> foreground = foregroundDepth(fixture);
+    const RefineScene scene{fixture.demo(), foreground, fixture.noiseMm()};
+    const std::vector<Candidate> rough = roughCandidates(fixture);
+    for (auto _ : state) {
+      benchmark::DoNotOptimize(
+          refineCoarsely(rough, fixture.database(kViews), scene, EstimateOptions().verified));
+    }
+    rate(state, "candidates", static_cast<double>(rough.size()));
+  });
+}
+
+void addFine(Fixture& fixture, const Path& path) {
+  add("BM_FineRefinementAndCheck/" + path.name, [&fixture, path](benchmark::State& state) {
+    const Image<float> foreground = foregroundDepth(fixture);
+    const ReferenceDatabase& database = fixture.database(kViews);
+    const RefineScene scene{fixture.demo(), foreground, fixture.noiseMm()};
+    const std::vector<Candidate> coarse =
+        refineCoarsely(roughCandidates(fixture), database, scene, EstimateOptions().verified);
+    for (auto _ : state) {
+      std::vector<Candidate> candidates = coarse;
+      refineFinely(candidates, database, scene, *path.stages);
+      benchmark::DoNotOptimize(candidates);
+    }
+    rate(state, "candidates", static_cast<double>(coarse.size()));
+  });
+}
+
+}  // namespace
+
+void registerRefineBenchmarks(Fixture& fixture) {
+  addCoarse(fixture);
+  for (const Path& path : fixture.paths()) addFine(fixture, path);
+}
+
+}  // namespace rangepose::bench

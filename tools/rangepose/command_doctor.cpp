@@ -1,0 +1,176 @@
+// rangepose doctor: what this machine offers, and which paths work.
+#include <dlfcn.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/error.h"
+#include "gles/context.h"
+#include "gles/egl_display.h"
+#include "rangepose/command.h"
+
+namespace rangepose::cli {
+namespace {
+
+constexpr const char* kExamples = R"(Examples:
+  rangepose doctor
+  __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent rangepose doctor     as if there were no EGL driver)";
+
+/// The driver library of NVIDIA, where there is one.
+struct CudaDriver {
+  bool found = false;
+  int version = 0;  ///< newest CUDA that it supports: 1000 * major + 10 * minor; 0 unknown
+};
+
+CudaDriver findCudaDriver() {
+  CudaDriver driver;
+  void* const library = dlopen("libcuda.so.1", RTLD_LAZY | RTLD_LOCAL);
+  if (library == nullptr) return driver;
+  driver.found = true;
+  using GetVersion = int (*)(int*);
+  const auto get_version = reinterpret_cast<GetVersion>(dlsym(library, "cuDriverGetVersion"));
+  if (get_version != nullptr && get_version(&driver.version) != 0) driver.version = 0;
+  dlclose(library);
+  return driver;
+}
+
+const char* simdName() {
+#if defined(__x86_64__) && defined(__GNUC__)
+  return __builtin_cpu_supports("avx2") != 0 ? "AVX2" : "SSE2 (no AVX2: the search is slower)";
+#elif defined(__aarch64__)
+  return "NEON";
+#else
+  return "what the compiler makes of it";
+#endif
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+  return text.empty() ? "none" : text;
+}
+
+void row(const char* name, const std::string& value) {
+  std::cout << fmt::format("  {:<18}{}\n", name, value);
+}
+
+void printHost() {
+  const unsigned cores = std::max(1U, std::thread::hardware_concurrency());
+  std::cout << "host\n";
+  row("cores", std::to_string(cores));
+#ifdef RP_HAVE_TBB
+  row("threads", fmt::format("{} (oneTBB; --threads sets fewer)", cores));
+#else
+  row("threads", fmt::format("{} (standard library; --threads sets fewer)", cores));
+#endif
+  row("SIMD", simdName());
+}
+
+void printEglDevices(const std::vector<gles::EglDeviceInfo>& devices) {
+  std::cout << "EGL devices\n";
+  if (devices.empty()) std::cout << "  none\n";
+  for (const gles::EglDeviceInfo& device : devices) {
+    std::string text = device.vendor.empty() ? "does not start" : device.vendor;
+    text += device.software ? ", software" : ", hardware";
+    if (!device.drm_file.empty()) text += ", " + device.drm_file;
+    if (device.cuda_device >= 0) text += fmt::format(", CUDA device {}", device.cuda_device);
+    row(fmt::format("device {}", device.index).c_str(), text);
+  }
+}
+
+void printContext(const gles::ContextInfo& info) {
+  std::cout << "GL\n";
+  row("context", "EGL " + info.platform);
+  row("renderer", info.renderer + (info.software ? " (software)" : " (hardware)"));
+  row("vendor", info.vendor);
+  row("version", info.version);
+  row("GLSL", info.glsl_version);
+  row("float targets", "RGBA32F and R32F can be rendered to");
+  row("extensions", joined(info.extensions));
+  row("not there", joined(info.missing));
+  row("largest texture", fmt::format("{} px", info.max_texture_size));
+}
+
+void printCuda(const CudaDriver& driver) {
+  std::cout << "CUDA\n";
+  row("cuda", "not built in");
+  std::string text = driver.found ? "found (libcuda.so.1)" : "not found (libcuda.so.1)";
+  if (driver.version > 0) {
+    text += fmt::format(", up to CUDA {}.{}", driver.version / 1000, driver.version % 1000 / 10);
+  }
+  row("NVIDIA driver", text);
+}
+
+/// One line for each thing that is missing, with what it needs.
+void printMissing(const std::string& no_context,
+                  const gles::ContextInfo* info,
+                  const std::vector<gles::EglDeviceInfo>& devices,
+                  const CudaDriver& driver) {
+  std::vector<std::string> lines;
+  if (info == nullptr) lines.push_back("glsl: " + no_context);
+  for (const std::string& name : info != nullptr ? info->missing : std::vector<std::string>()) {
+    lines.push_back("glsl: " + name +
+                    " (not required): comes with a newer driver, e.g. libgl1-mesa-dri");
+  }
+  const bool nvidia_egl = std::any_of(
+      devices.begin(), devices.end(), [](const auto& device) { return device.cuda_device >= 0; });
+  if (driver.found && !nvidia_egl) {
+    lines.emplace_back(
+        "glsl on the NVIDIA GPU: its EGL driver is not there; install libnvidia-egl-gbm1 or the "
+        "libnvidia-gl "
+        "package of the driver's version (in a container: NVIDIA_DRIVER_CAPABILITIES=all)");
+  } else if (info != nullptr && info->software) {
+    lines.emplace_back(
+        "glsl on a GPU: needs a GPU and its driver (Mesa: libgl1-mesa-dri; NVIDIA: libnvidia-gl)");
+  }
+  lines.emplace_back("cuda: this version has no CUDA path; use glsl or host");
+  std::cout << "missing\n";
+  for (const std::string& line : lines) std::cout << "  " << line << '\n';
+}
+
+void printPaths(const gles::ContextInfo* info) {
+  std::cout << "paths\n";
+  row("host", "yes");
+  row("glsl", info == nullptr ? "no" : info->software ? "yes, in software: slow" : "yes");
+  row("cuda", "no");
+  const bool gpu = info != nullptr && !info->software;
+  row("--path auto",
+      fmt::format("takes {}; build renders by {}",
+                  gpu ? "glsl" : "host",
+                  info != nullptr ? "glsl" : "host"));
+}
+
+int examine() {
+  const std::vector<gles::EglDeviceInfo> devices = gles::listEglDevices();
+  std::unique_ptr<gles::Context> context;
+  std::string no_context;
+  try {
+    context = std::make_unique<gles::Context>();
+  } catch (const Unavailable& error) {
+    no_context = error.what();
+  }
+  const gles::ContextInfo* const info = context != nullptr ? &context->info() : nullptr;
+  const CudaDriver driver = findCudaDriver();
+  std::cout << "rangepose " RP_VERSION "\n";
+  printHost();
+  printEglDevices(devices);
+  if (info != nullptr) printContext(*info);
+  if (info == nullptr) std::cout << "GL\n  none\n";
+  printCuda(driver);
+  printPaths(info);
+  printMissing(no_context, info, devices, driver);
+  return kDone;
+}
+
+}  // namespace
+
+std::function<int()> declareDoctor(CLI::App& command) {
+  command.footer(kExamples);
+  return examine;
+}
+
+}  // namespace rangepose::cli

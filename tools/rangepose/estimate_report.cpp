@@ -1,0 +1,157 @@
+#include "rangepose/estimate_report.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "core/error.h"
+#include "rangepose/quaternion.h"
+
+namespace rangepose::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double finite(double value, const char* field) {
+  if (!std::isfinite(value)) {
+    throw Error(std::string("result: ") + field +
+                " is not a finite number; please report this image");
+  }
+  return value;
+}
+
+Json rotationJson(const Pose& pose) {
+  Json rows = Json::array();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      rows.push_back(finite(pose.rotation[column][row], "cam_R_m2c"));
+    }
+  }
+  return rows;
+}
+
+Json translationJson(const Pose& pose) {
+  Json list = Json::array();
+  for (int axis = 0; axis < 3; ++axis)
+    list.push_back(finite(pose.translation_mm[axis], "cam_t_m2c"));
+  return list;
+}
+
+Json checkJson(const CheckResult& check) {
+  return {{"explained", finite(check.explained, "check.explained")},
+          {"contradicted", finite(check.contradicted, "check.contradicted")},
+          {"hidden", finite(check.hidden, "check.hidden")},
+          {"buried", finite(check.buried, "check.buried")},
+          {"missing", finite(check.missing, "check.missing")},
+          {"weak", finite(check.weak, "check.weak")},
+          {"outline", finite(check.outline, "check.outline")},
+          {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
+}
+
+const ReferenceObject& objectOf(const PoseEstimate& pose, const ReferenceDatabase& database) {
+  return database.objects.at(static_cast<std::size_t>(pose.object));
+}
+
+Json poseJson(const PoseEstimate& pose, const ReferenceDatabase& database) {
+  const ReferenceObject& object = objectOf(pose, database);
+  return {{"object", object.mesh.name},
+          {"obj_id", object.id},
+          {"score", finite(pose.check.score, "score")},
+          {"cam_R_m2c", rotationJson(pose.pose)},
+          {"cam_t_m2c", translationJson(pose.pose)},
+          {"rough",
+           {{"R", rotationJson(pose.rough)},
+            {"t", translationJson(pose.rough)},
+            {"error", finite(static_cast<double>(pose.rough_error), "rough.error")},
+            {"view", pose.view}}},
+          {"check", checkJson(pose.check)}};
+}
+
+std::string poseLine(std::size_t rank,
+                     const PoseEstimate& pose,
+                     const ReferenceDatabase& database) {
+  const glm::dvec3& t = pose.pose.translation_mm;
+  const std::array<double, 4> q = quaternionOf(pose.pose.rotation);
+  return fmt::format(
+      "{:>4}  {:<20} {:>6.3f}  {:>9.2f} {:>9.2f} {:>9.2f}   {:>8.5f} {:>8.5f} {:>8.5f} {:>8.5f}\n",
+      rank,
+      objectOf(pose, database).mesh.name,
+      pose.check.score,
+      t.x,
+      t.y,
+      t.z,
+      q[0],
+      q[1],
+      q[2],
+      q[3]);
+}
+
+}  // namespace
+
+std::string textReport(const Estimate& estimate, const ReportContext& context) {
+  std::string text;
+  if (estimate.poses.empty()) {
+    text = fmt::format("no pose found with a score of at least {:g}\n", context.min_score);
+  } else {
+    text = fmt::format("{:>4}  {:<20} {:>6}  {:>9} {:>9} {:>9}   {:>8} {:>8} {:>8} {:>8}\n",
+                       "rank",
+                       "object",
+                       "score",
+                       "x[mm]",
+                       "y[mm]",
+                       "z[mm]",
+                       "qw",
+                       "qx",
+                       "qy",
+                       "qz");
+  }
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
+    text += poseLine(i + 1, estimate.poses[i], context.database);
+  }
+  double total = 0.0;
+  text += "path " + context.path + ", times [ms]:";
+  for (const StageTime& time : estimate.times) {
+    text += fmt::format(" {} {:.1f},", time.stage, time.ms);
+    total += time.ms;
+  }
+  return text + fmt::format(" total {:.1f}\n", total);
+}
+
+Json timesJson(const StageTimes& times) {
+  Json list = Json::object();
+  for (const StageTime& time : times) list[time.stage] = finite(time.ms, "times_ms");
+  return list;
+}
+
+Json jsonReport(const Estimate& estimate, const ReportContext& context) {
+  Json poses = Json::array();
+  for (const PoseEstimate& pose : estimate.poses) poses.push_back(poseJson(pose, context.database));
+  return {{"version", RP_VERSION},
+          {"path", context.path},
+          {"image", context.image},
+          {"poses", poses},
+          {"times_ms", timesJson(estimate.times)},
+          {"noise_mm", finite(estimate.noise_mm, "noise_mm")},
+          {"warnings", estimate.warnings}};
+}
+
+std::string jsonText(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<debug::OverlayPose> overlayPoses(const Estimate& estimate,
+                                             const ReferenceDatabase& database,
+                                             bool rough) {
+  std::vector<debug::OverlayPose> poses;
+  for (const PoseEstimate& pose : estimate.poses) {
+    const Mesh& mesh = objectOf(pose, database).mesh;
+    poses.push_back({&mesh,
+                     rough ? pose.rough : pose.pose,
+                     pose.check.score,
+                     std::to_string(poses.size() + 1) + " " + mesh.name});
+  }
+  return poses;
+}
+
+}  // namespace rangepose::cli
