@@ -164,6 +164,7 @@ namespace {
 struct CoarseRound {
   int points;
   int iterations;
+  int search_steps;
   double first_reach;      ///< share of the diameter
   double last_tolerances;  ///< reach of the last iteration, in tolerances
 };
@@ -180,8 +181,9 @@ void alignWithViews(std::vector<Candidate>& candidates,
       const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
       const double tolerance = toleranceFor(object, scene.noise_mm);
       const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, round.points);
-      const IcpOptions options = icpOptions(
+      IcpOptions options = icpOptions(
           round.first_reach * object.diameter_mm, round.last_tolerances * tolerance, round.iterations);
+      options.search_steps = round.search_steps;
       candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.pose,
                                  object.center_mm, object.radius_mm, options)
                            .camera_from_object;
@@ -200,8 +202,8 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{70, 6, 0.12, 2.0};
-  constexpr CoarseRound kFew{220, 8, 0.06, 1.5};
+  constexpr CoarseRound kMany{60, 8, 1, 0.20, 2.0};
+  constexpr CoarseRound kFew{220, 8, 2, 0.06, 1.5};
   constexpr int kFewPerKept = 4;
   alignWithViews(candidates, database, scene, kMany);
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);

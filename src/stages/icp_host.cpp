@@ -11,21 +11,20 @@ namespace rangepose {
 void IcpOptions::check() const {
   RP_CHECK(iterations >= 1, "icp iterations must be at least 1");
   RP_CHECK(last_reach_mm > 0.0 && first_reach_mm >= last_reach_mm, "icp reach must be positive and not grow");
+  RP_CHECK(search_steps >= 0, "icp search_steps must not be negative");
   RP_CHECK(slide >= 0.0, "icp slide must not be negative");
 }
 
 namespace host {
 namespace {
 
-/// Pixels to either side of the own one that are searched, at most; the grid between them is kSteps wide.
-constexpr int kSteps = 2;
-
 /// Finds scene points near model points in one depth image.
 class Associator {
  public:
-  Associator(const Camera& camera, const Image<float>& scene_mm) : camera_(camera), scene_mm_(scene_mm) {}
+  Associator(const Camera& camera, const Image<float>& scene_mm, int steps)
+      : camera_(camera), scene_mm_(scene_mm), steps_(steps) {}
 
-  /// The nearest measured point to `point` on a 5x5 grid of pixels whose spacing follows from `reach_mm`;
+  /// The nearest measured point to `point` on a grid of pixels whose spacing follows from `reach_mm`;
   /// nothing if the point is hidden or has no partner within the reach.
   std::optional<glm::dvec3> partner(const glm::dvec3& point, double reach_mm) const {
     if (!camera_.orthographic && point.z <= 1.0) return std::nullopt;
@@ -40,11 +39,11 @@ class Associator {
     const double here = scene_mm_.at(u, v);
     if (here != 0.0 && here < point.z - reach_mm) return std::nullopt;
     const double reach_px = reach_mm / camera_.pixelSpacingMm(point.z);
-    const int spacing = std::max(1, static_cast<int>(reach_px / kSteps));
+    const int spacing = std::max(1, static_cast<int>(reach_px / steps_));
     double best = reach_mm * reach_mm;
     std::optional<glm::dvec3> nearest;
-    for (int dv = -kSteps; dv <= kSteps; ++dv) {
-      for (int du = -kSteps; du <= kSteps; ++du) {
+    for (int dv = -steps_; dv <= steps_; ++dv) {
+      for (int du = -steps_; du <= steps_; ++du) {
         const int x = u + du * spacing;
         const int y = v + dv * spacing;
         if (!scene_mm_.contains(x, y)) continue;
@@ -65,6 +64,7 @@ class Associator {
  private:
   const Camera& camera_;
   const Image<float>& scene_mm_;
+  int steps_;
 };
 
 double tukey(double squared_ratio) {
@@ -88,7 +88,7 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
               double radius_mm,
               const IcpOptions& options) {
   options.check();
-  const Associator associator(camera, scene_mm);
+  const Associator associator(camera, scene_mm, options.search_steps);
   IcpResult result{start, 0.0, 0.0, 0};
   const double shrink =
       std::pow(options.last_reach_mm / options.first_reach_mm, 1.0 / std::max(1, options.iterations - 1));

@@ -12,6 +12,7 @@ struct IcpOptions {
   int iterations = 10;
   double first_reach_mm = 8.0;  ///< pairs farther apart than this are left out, in the first iteration [mm]
   double last_reach_mm = 2.0;   ///< in the last iteration [mm]; in between geometric
+  int search_steps = 2;         ///< partners are looked for on a grid of 2 * search_steps + 1 pixels a side
   double slide = 0.1;           ///< share of the point-to-point term
   void check() const;           ///< throws Error naming the bad field
 };

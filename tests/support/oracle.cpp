@@ -12,6 +12,7 @@ Image<float> median(const Image<float>& range) {
   for (int y = 0; y < range.height(); ++y) {
     for (int x = 0; x < range.width(); ++x) {
       std::vector<float> values;
+      values.reserve(9);
       for (int i = 0; i < 9; ++i) {
         values.push_back(range.at(std::clamp(x + i % 3 - 1, 0, range.width() - 1),
                                   std::clamp(y + i / 3 - 1, 0, range.height() - 1)));

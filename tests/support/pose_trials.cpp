@@ -58,18 +58,24 @@ Mesh ball(double radius_mm) {
   return cleaned(mesh);
 }
 
-double hiddenShare(const std::vector<Mesh>& meshes,
+/// Pixels at which the scan measured the first part.
+int measuredPixels(const std::vector<Mesh>& meshes,
                    const std::vector<PlacedPart>& parts,
-                   const Camera& camera,
-                   const Pose& camera_from_world) {
-  const CleanView view = renderHeap(meshes, parts, camera, camera_from_world);
-  const auto seen = std::count(view.part.begin(), view.part.end(), std::int16_t{0});
-  return 1.0 - static_cast<double>(seen) / std::max(1, view.silhouette_px[0]);
+                   const Pose& camera_from_world,
+                   const ScannerOptions& options) {
+  const Scan scan = scanFrom(meshes, parts, camera_from_world, options);
+  const CleanView view = renderHeap(meshes, parts, scannerCamera(options), camera_from_world);
+  int count = 0;
+  for (std::size_t i = 0; i < view.part.size(); ++i) {
+    count += view.part.data()[i] == 0 && scan.image.depth_mm.data()[i] > 0.0f ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace
 
 PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double hidden) {
+  PoseTrial trial;
   std::mt19937_64 random(seed);
   const Sphere sphere = boundingSphere(mesh);
   PlacedPart part;
@@ -83,7 +89,6 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
   // Looks at the middle of the table, not at the part.
   PlacedPart aim;
   aim.world_from_object.translation_mm = glm::dvec3(0.0, 0.0, center.z);
-  const Camera camera = scannerCamera(options);
   const Pose camera_from_world = scannerPose({aim}, options);
   const double ball_mm = 0.9 * sphere.radius_mm;
   const std::vector<Mesh> meshes = {mesh, ball(ball_mm)};
@@ -94,9 +99,10 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
     const double height = center.z + sphere.radius_mm + ball_mm + uniform(random, 0.0, 20.0);
     const glm::dvec3 eye = camera_from_world.inverse().translation_mm;
     const glm::dvec3 on_sight = center + (eye - center) * ((height - center.z) / (eye.z - center.z));
+    const double unhidden = measuredPixels(meshes, parts, camera_from_world, options);
     double near = 0.0;
     double far = 3.0 * sphere.radius_mm;
-    for (int step = 0; step < 9; ++step) {
+    for (int step = 0; step < 7; ++step) {
       const double distance = 0.5 * (near + far);
       PlacedPart occluder;
       occluder.mesh = 1;
@@ -104,14 +110,13 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
           on_sight + distance * glm::dvec3(std::cos(side), std::sin(side), 0.0);
       parts.resize(1);
       parts.push_back(occluder);
-      (hiddenShare(meshes, parts, camera, camera_from_world) < hidden ? far : near) = distance;
+      trial.hidden = 1.0 - measuredPixels(meshes, parts, camera_from_world, options) / unhidden;
+      (trial.hidden < hidden ? far : near) = distance;
     }
   }
   const Scan scan = scanFrom(meshes, parts, camera_from_world, options);
-  PoseTrial trial;
   trial.image = scan.image;
   trial.camera_from_object = scan.truth[0].camera_from_object;
-  trial.hidden = hidden > 0.0 ? hiddenShare(meshes, parts, camera, camera_from_world) : 0.0;
   return trial;
 }
 

@@ -12,12 +12,12 @@ namespace rangepose::test {
 struct PoseTrial {
   DepthImage image;
   Pose camera_from_object;
-  double hidden = 0.0;  ///< share of the part's pixels that the ball hides
+  double hidden = 0.0;  ///< share of the part's measured pixels that the ball and its shadow take away
 };
 
 /// The part floats in a random orientation (uniform over SO(3), anywhere near the middle of the image) above a table,
 /// seen by the scanner of src/sim. `noise` as in ScannerOptions. With `hidden` > 0 a ball above the part
-/// is pushed into the line of sight from a random side until it hides that share (+-0.02).
+/// is pushed into the line of sight from a random side until it and its shadow take that share (+-0.03).
 PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double hidden);
 
 /// Rotations about the object's origin frame that leave a part of models/ the same, the identity first.

@@ -29,7 +29,7 @@ numbers row by row (JSON).
 Examples:
   rangepose estimate --db parts.rpdb --depth depth.png --camera camera.json
   rangepose estimate --db parts.rpdb --cloud scan.pcd --all --json poses.json --overlay seen.png
-  rangepose estimate --db parts.rpdb --depth d.png --camera c.json --bin bin.json --json - | jq .poses
+  rangepose estimate --db parts.rpdb --depth d.png --camera c.json --bin bin.json --json -
   rangepose estimate --db lm.rpdb --bop lm --split test --csv results.csv --all)";
 
 constexpr int kAllPoses = 100;
