@@ -14,6 +14,7 @@ double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& ma
     for (int u = kApart; u + kApart < mask.width(); ++u) {
       if (mask.at(u - kApart, v) == 0 || mask.at(u, v) == 0 || mask.at(u + kApart, v) == 0) continue;
       const float* row = image.depth_mm.row(v);
+      if (row[u - kApart] == 0.0f || row[u] == 0.0f || row[u + kApart] == 0.0f) continue;
       differences.push_back(std::abs(row[u - kApart] - 2.0f * row[u] + row[u + kApart]));
     }
   }

@@ -249,7 +249,7 @@ Estimate estimatePoses(const DepthImage& depth,
     foreground_options.tolerance_mm = std::max(1.5, 0.02 * foreground_options.part_mm);
     result.background = findBackground(depth, foreground_options);
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
-    result.noise_mm = estimateDepthNoise(depth, foreground);
+    result.noise_mm = estimateDepthNoise(depth, everything);
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);

@@ -15,7 +15,7 @@ struct ForegroundOptions {
   double min_floor_share = 0.04; ///< of the measured pixels that a floor or table has at least
   double min_wall_share = 0.02;  ///< the same for a wall
   double max_behind = 0.03;      ///< share of the measured pixels that may lie behind a background plane
-  double min_above = 0.003;      ///< share that must stand out of each by three tolerances
+  double min_above = 0.001;      ///< share that must stand out of each by three tolerances
   int max_planes = 6;            ///< a floor, four walls, and a table around the bin
 };
 

@@ -17,7 +17,7 @@ Image<float> foregroundDepth(Fixture& fixture) {
   return depth;
 }
 
-std::vector<Candidate> roughCandidates(Fixture& fixture) {
+std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scene) {
   const ObjectTrace& trace = fixture.trace(kViews).objects.front();
   std::vector<OrthoCamera> cameras;
   for (const SceneChannels& window : trace.windows) cameras.push_back(window.camera);
@@ -25,6 +25,7 @@ std::vector<Candidate> roughCandidates(Fixture& fixture) {
                         0,
                         trace.hypotheses,
                         cameras,
+                        scene,
                         EstimateOptions().kept_per_start);
 }
 
@@ -32,7 +33,7 @@ void addCoarse(Fixture& fixture) {
   add("BM_CoarseRefinement/host", [&fixture](benchmark::State& state) {
     const Image<float> foreground = foregroundDepth(fixture);
     const RefineScene scene{fixture.demo(), foreground, fixture.noiseMm()};
-    const std::vector<Candidate> rough = roughCandidates(fixture);
+    const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
       benchmark::DoNotOptimize(
           refineCoarsely(rough, fixture.database(kViews), scene, EstimateOptions().verified));
@@ -47,7 +48,7 @@ void addFine(Fixture& fixture, const Path& path) {
     const ReferenceDatabase& database = fixture.database(kViews);
     const RefineScene scene{fixture.demo(), foreground, fixture.noiseMm()};
     const std::vector<Candidate> coarse =
-        refineCoarsely(roughCandidates(fixture), database, scene, EstimateOptions().verified);
+        refineCoarsely(roughCandidates(fixture, scene), database, scene, EstimateOptions().verified);
     for (auto _ : state) {
       std::vector<Candidate> candidates = coarse;
       refineFinely(candidates, database, scene, *path.stages);
