@@ -6,7 +6,8 @@ namespace rangepose {
 
 void Camera::check() const {
   RP_CHECK(width > 0 && height > 0, "camera: width and height must be positive");
-  RP_CHECK(std::isfinite(cx) && std::isfinite(cy), "camera: cam_K has a non-finite principal point");
+  RP_CHECK(std::isfinite(cx) && std::isfinite(cy),
+           "camera: cam_K has a non-finite principal point");
   RP_CHECK(std::isfinite(depth_scale) && depth_scale > 0.0, "camera: depth_scale must be positive");
   if (orthographic) {
     RP_CHECK(std::isfinite(pixel_size_mm) && pixel_size_mm > 0.0,

@@ -46,8 +46,8 @@ struct DepthImage {
   Image<float> depth_mm;  ///< camera.width x camera.height
 };
 
-/// Region of interest: the inside of a bin. Bin frame: origin at the centre of the inner floor, x and
-/// y along the sides, z up out of the bin.
+/// Region of interest: the inside of a bin. Bin frame: origin at the centre of the inner floor, x
+/// and y along the sides, z up out of the bin.
 struct BinBox {
   Pose camera_from_bin;
   glm::dvec3 inner_size_mm{0.0};  ///< x, y, height [mm]

@@ -26,7 +26,7 @@ namespace detail {
 }  // namespace rangepose
 
 /// Precondition of a public function: throws Error with the message when it does not hold.
-#define RP_CHECK(condition, message) \
-  do {                               \
+#define RP_CHECK(condition, message)                                         \
+  do {                                                                       \
     if (!(condition)) ::rangepose::detail::failCheck(#condition, (message)); \
   } while (false)

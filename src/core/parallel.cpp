@@ -21,11 +21,12 @@ namespace rangepose {
 
 void parallelFor(int count, int grain, const std::function<void(int, int)>& body) {
   const int pieces = (count + grain - 1) / grain;
-  tbb::parallel_for(tbb::blocked_range<int>(0, pieces, 1), [&](const tbb::blocked_range<int>& range) {
-    for (int piece = range.begin(); piece < range.end(); ++piece) {
-      body(piece * grain, std::min(count, (piece + 1) * grain));
-    }
-  });
+  tbb::parallel_for(tbb::blocked_range<int>(0, pieces, 1),
+                    [&](const tbb::blocked_range<int>& range) {
+                      for (int piece = range.begin(); piece < range.end(); ++piece) {
+                        body(piece * grain, std::min(count, (piece + 1) * grain));
+                      }
+                    });
 }
 
 void setThreadCount(int threads) {

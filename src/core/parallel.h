@@ -1,5 +1,5 @@
-// Data-parallel loops on the host. Work is cut into fixed pieces that do not depend on the number of
-// threads, so that a result never does.
+// Data-parallel loops on the host. Work is cut into fixed pieces that do not depend on the number
+// of threads, so that a result never does.
 #pragma once
 
 #include <functional>

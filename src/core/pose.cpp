@@ -16,7 +16,8 @@ double rotationAngleBetween(const glm::dmat3& a, const glm::dmat3& b) {
 
 glm::dmat3 rotationFromVector(const glm::dvec3& vector) {
   const double angle = glm::length(vector);
-  const glm::dmat3 cross(0.0, vector.z, -vector.y, -vector.z, 0.0, vector.x, vector.y, -vector.x, 0.0);
+  const glm::dmat3 cross(
+      0.0, vector.z, -vector.y, -vector.z, 0.0, vector.x, vector.y, -vector.x, 0.0);
   if (angle < 1e-12) return glm::dmat3(1.0) + cross;
   const double first = std::sin(angle) / angle;
   const double second = (1.0 - std::cos(angle)) / (angle * angle);

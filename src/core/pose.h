@@ -7,8 +7,8 @@ namespace rangepose {
 
 /// x_target = rotation * x_source + translation_mm.
 struct Pose {
-  glm::dmat3 rotation{1.0};       ///< orthonormal, determinant +1
-  glm::dvec3 translation_mm{0.0}; ///< [mm]
+  glm::dmat3 rotation{1.0};        ///< orthonormal, determinant +1
+  glm::dvec3 translation_mm{0.0};  ///< [mm]
 
   glm::dvec3 operator*(const glm::dvec3& point) const { return rotation * point + translation_mm; }
   Pose operator*(const Pose& other) const {

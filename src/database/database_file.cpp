@@ -13,7 +13,8 @@ constexpr std::array<char, 4> kMagic = {'R', 'P', 'D', 'B'};
 constexpr std::uint32_t kVersion = 1;
 constexpr int kMaxViews = 65536;
 
-/// FNV-1a over words of eight bytes: each step is one to one, so a single damaged word always shows.
+/// FNV-1a over words of eight bytes: each step is one to one, so a single damaged word always
+/// shows.
 std::uint64_t checksum(const char* data, std::size_t size) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   const auto mix = [&hash](std::uint64_t word) {
@@ -94,7 +95,8 @@ ReferenceObject readObject(ByteReader& in) {
   object.views.resize(views);
   const int columns = atlasColumns(static_cast<int>(views));
   const int rows = (static_cast<int>(views) + columns - 1) / columns;
-  object.atlas = Image<ReferenceTexel>(columns * object.size, rows * object.size, ReferenceTexel(0.0f));
+  object.atlas =
+      Image<ReferenceTexel>(columns * object.size, rows * object.size, ReferenceTexel(0.0f));
   for (std::size_t i = 0; i < views; ++i) {
     ReferenceView& view = object.views[i];
     view.rotation = in.value<glm::dmat3>();
@@ -102,13 +104,14 @@ ReferenceObject readObject(ByteReader& in) {
     view.area_px = in.value<float>();
     view.anchor_px = in.value<glm::vec3>();
     const PixelBox& box = view.box;
-    if (box.x0 < 0 || box.y0 < 0 || box.x1 > object.size || box.y1 > object.size || box.x0 > box.x1 ||
-        box.y0 > box.y1) {
+    if (box.x0 < 0 || box.y0 < 0 || box.x1 > object.size || box.y1 > object.size ||
+        box.x0 > box.x1 || box.y0 > box.y1) {
       in.fail("view " + std::to_string(i) + " has a box outside of its tile");
     }
     const glm::ivec2 origin = object.tileOrigin(static_cast<int>(i));
     for (int v = box.y0; v < box.y1; ++v) {
-      in.array(object.atlas.row(origin.y + v) + origin.x + box.x0, static_cast<std::size_t>(box.width()));
+      in.array(object.atlas.row(origin.y + v) + origin.x + box.x0,
+               static_cast<std::size_t>(box.width()));
     }
   }
   return object;
@@ -132,7 +135,8 @@ std::vector<char> serialize(const ReferenceDatabase& database) {
 
 ReferenceDatabase deserialize(const std::vector<char>& bytes, const std::string& where) {
   ByteReader header(bytes.data(), bytes.size(), where);
-  if (bytes.size() < kMagic.size() || std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
+  if (bytes.size() < kMagic.size() ||
+      std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
     throw Error(where + ": not a rangepose database; make one with `rangepose build`");
   }
   header.value<std::array<char, 4>>();

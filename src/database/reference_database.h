@@ -1,5 +1,5 @@
-// The reference database: all objects that may be in a scene, with their views (paper Sect. 4), and its
-// file.
+// The reference database: all objects that may be in a scene, with their views (paper Sect. 4), and
+// its file.
 #pragma once
 
 #include <filesystem>
@@ -15,8 +15,9 @@ struct ReferenceDatabase {
   std::vector<ReferenceObject> objects;
 };
 
-/// An object with its scale and the orientations of its views, not rendered yet. Throws Error for a mesh that
-/// checkMesh refuses or for a size or number of views out of range (16..128 px, 1..65536).
+/// An object with its scale and the orientations of its views, not rendered yet. Throws Error for a
+/// mesh that checkMesh refuses or for a size or number of views out of range (16..128
+/// px, 1..65536).
 ///
 /// The bounding sphere fills the tile but for a margin of kTileMarginPx, so no view is cut off.
 ReferenceObject describeObject(const Mesh& mesh,
@@ -25,10 +26,12 @@ ReferenceObject describeObject(const Mesh& mesh,
                                const std::vector<glm::dmat3>& rotations,
                                const ChannelOptions& options);
 
-/// Pixels between the bounding sphere and the border of a tile: room for an edge and its neighbours.
+/// Pixels between the bounding sphere and the border of a tile: room for an edge and its
+/// neighbours.
 inline constexpr double kTileMarginPx = 2.0;
 
-/// Channel options for references of `size_px`: the paper's 7 passes at 64x64, in proportion otherwise.
+/// Channel options for references of `size_px`: the paper's 7 passes at 64x64, in proportion
+/// otherwise.
 ChannelOptions channelOptionsFor(int size_px);
 
 /// Channel options that made the references of this object; scene windows must use the same.
@@ -37,8 +40,8 @@ ChannelOptions channelOptionsOf(const ReferenceObject& object);
 /// The file's content. Only the boxes of the views are kept; the rest of a tile is background.
 std::vector<char> serialize(const ReferenceDatabase& database);
 
-/// Reads what `serialize` wrote. Throws Error, naming `where`, for anything else: wrong type, other version,
-/// truncated, damaged (checksum), or with sizes that do not fit.
+/// Reads what `serialize` wrote. Throws Error, naming `where`, for anything else: wrong type, other
+/// version, truncated, damaged (checksum), or with sizes that do not fit.
 ReferenceDatabase deserialize(const std::vector<char>& bytes, const std::string& where);
 
 /// Reads a database file; throws Error when it is missing or not a sound database.

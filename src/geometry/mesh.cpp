@@ -35,7 +35,8 @@ bool hasArea(const Mesh& mesh, const glm::uvec3& triangle) {
 
 void checkMesh(const Mesh& mesh) {
   const std::string where = "mesh " + mesh.name + ": ";
-  if (mesh.triangles.empty()) throw Error(where + "no faces; give a triangle mesh, not a point cloud");
+  if (mesh.triangles.empty())
+    throw Error(where + "no faces; give a triangle mesh, not a point cloud");
   for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
     const glm::vec3& v = mesh.vertices[i];
     if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
@@ -79,7 +80,8 @@ Sphere boundingSphere(const Mesh& mesh) {
   const Bounds box = bounds(mesh);
   Sphere sphere{0.5 * (box.low + box.high), 0.0};
   for (const glm::vec3& vertex : mesh.vertices) {
-    sphere.radius_mm = std::max(sphere.radius_mm, glm::distance(glm::dvec3(vertex), sphere.center_mm));
+    sphere.radius_mm =
+        std::max(sphere.radius_mm, glm::distance(glm::dvec3(vertex), sphere.center_mm));
   }
   return sphere;
 }

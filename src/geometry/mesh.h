@@ -19,8 +19,8 @@ struct Sphere {
   double radius_mm = 0.0;
 };
 
-/// Throws Error, naming the mesh and the element, when there is no triangle with an area, an index is out
-/// of range, or a vertex is not finite.
+/// Throws Error, naming the mesh and the element, when there is no triangle with an area, an index
+/// is out of range, or a vertex is not finite.
 void checkMesh(const Mesh& mesh);
 
 /// Removes triangles without area and vertices that no triangle uses.

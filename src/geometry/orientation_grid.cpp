@@ -10,9 +10,15 @@ namespace {
 
 glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w) {
   // Columns of the usual matrix of a unit quaternion.
-  return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
-          2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
-          2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
+  return {1 - 2 * (y * y + z * z),
+          2 * (x * y + w * z),
+          2 * (x * z - w * y),
+          2 * (x * y - w * z),
+          1 - 2 * (x * x + z * z),
+          2 * (y * z + w * x),
+          2 * (x * z + w * y),
+          2 * (y * z - w * x),
+          1 - 2 * (x * x + y * y)};
 }
 
 }  // namespace

@@ -11,26 +11,34 @@
 namespace rangepose {
 namespace {
 
-/// A scene image has at most this many pixels along a side; larger scenes are looked at more coarsely to find
-/// starts, never for the search itself.
+/// A scene image has at most this many pixels along a side; larger scenes are looked at more
+/// coarsely to find starts, never for the search itself.
 constexpr int kMaxScenePx = 1024;
 
 Image<float> masked(const DepthImage& depth, const Image<std::uint8_t>& mask) {
   Image<float> result(mask.width(), mask.height(), 0.0f);
-  std::transform(mask.begin(), mask.end(), depth.depth_mm.begin(), result.begin(),
+  std::transform(mask.begin(),
+                 mask.end(),
+                 depth.depth_mm.begin(),
+                 result.begin(),
                  [](std::uint8_t kept, float mm) { return kept != 0 ? mm : 0.0f; });
   return result;
 }
 
 double largestDiameter(const ReferenceDatabase& database) {
   double largest = 0.0;
-  for (const ReferenceObject& object : database.objects) largest = std::max(largest, object.diameter_mm);
+  for (const ReferenceObject& object : database.objects)
+    largest = std::max(largest, object.diameter_mm);
   return largest;
 }
 
 PoseEstimate estimateOf(const Candidate& candidate) {
-  return {candidate.object, candidate.rough, candidate.pose,
-          candidate.rough_error, candidate.view, candidate.check};
+  return {candidate.object,
+          candidate.rough,
+          candidate.pose,
+          candidate.rough_error,
+          candidate.view,
+          candidate.check};
 }
 
 /// The windows around the starts of one object, and what they were made of.
@@ -73,7 +81,8 @@ class Estimator {
     refineFinely(candidates, database_, scene, stages_);
     candidates = bestOfEachPlace(std::move(candidates), database_);
     if (trace != nullptr) {
-      for (const Candidate& candidate : candidates) trace->verified.push_back(estimateOf(candidate));
+      for (const Candidate& candidate : candidates)
+        trace->verified.push_back(estimateOf(candidate));
     }
     return candidates;
   }
@@ -102,8 +111,8 @@ class Estimator {
     }
     for (Seed& seed : seeds) {
       // From here on a seed is a point of the camera frame.
-      const glm::dvec3 point = camera.camera_from_ortho *
-                               camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px);
+      const glm::dvec3 point =
+          camera.camera_from_ortho * camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px);
       seed.x_px = static_cast<float>(point.x);
       seed.y_px = static_cast<float>(point.y);
       seed.range_px = static_cast<float>(point.z);
@@ -149,7 +158,9 @@ class Estimator {
     return windows;
   }
 
-  std::vector<Hypothesis> search(const ReferenceObject& object, const Windows& windows, ObjectTrace* trace) {
+  std::vector<Hypothesis> search(const ReferenceObject& object,
+                                 const Windows& windows,
+                                 ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "rough search");
     SearchOptions search_options = options_.search;
     search_options.error.image_width_px = object.size;
@@ -181,13 +192,15 @@ void removeExplained(const PoseEstimate& found,
   const int all = std::max(depth.camera.width, depth.camera.height);
   const SurfaceWindow window =
       windowAround(depth.camera, found.pose * object.center_mm, object.radius_mm, all);
-  const Image<SurfaceTexel> surface = stages.renderSurface(object.mesh, depth.camera, found.pose, window);
+  const Image<SurfaceTexel> surface =
+      stages.renderSurface(object.mesh, depth.camera, found.pose, window);
   const double tolerance = 2.0 * toleranceFor(object, noise_mm);
   for (int y = 0; y < surface.height(); ++y) {
     for (int x = 0; x < surface.width(); ++x) {
       const double model = static_cast<double>(surface.at(x, y).w);
       const double seen = static_cast<double>(depth.depth_mm.at(window.x0 + x, window.y0 + y));
-      if (model > 0.0 && std::abs(model - seen) < tolerance) foreground.at(window.x0 + x, window.y0 + y) = 0;
+      if (model > 0.0 && std::abs(model - seen) < tolerance)
+        foreground.at(window.x0 + x, window.y0 + y) = 0;
     }
   }
 }
@@ -195,8 +208,10 @@ void removeExplained(const PoseEstimate& found,
 /// A line for each object whose size in the image smells of a wrong unit.
 std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDatabase& database) {
   std::vector<float> depths;
-  std::copy_if(depth.depth_mm.begin(), depth.depth_mm.end(), std::back_inserter(depths),
-               [](float mm) { return mm > 0.0f; });
+  std::copy_if(
+      depth.depth_mm.begin(), depth.depth_mm.end(), std::back_inserter(depths), [](float mm) {
+        return mm > 0.0f;
+      });
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   const double spacing = depth.camera.pixelSpacingMm(static_cast<double>(*middle));
@@ -205,10 +220,10 @@ std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDa
   for (const ReferenceObject& object : database.objects) {
     const double pixels = object.diameter_mm / spacing;
     if (pixels >= 6.0 && object.diameter_mm <= 2.0 * image_mm) continue;
-    warnings.push_back("object " + object.mesh.name + " is " +
-                       std::to_string(std::lround(object.diameter_mm)) + " mm wide and the image " +
-                       std::to_string(std::lround(image_mm)) +
-                       " mm: check --unit of `rangepose build`, depth_scale and the unit of the cloud");
+    warnings.push_back(
+        "object " + object.mesh.name + " is " + std::to_string(std::lround(object.diameter_mm)) +
+        " mm wide and the image " + std::to_string(std::lround(image_mm)) +
+        " mm: check --unit of `rangepose build`, depth_scale and the unit of the cloud");
   }
   return warnings;
 }
@@ -233,9 +248,11 @@ Estimate estimatePoses(const DepthImage& depth,
   options.check();
   depth.camera.check();
   RP_CHECK(!database.objects.empty(), "the database holds no object");
-  RP_CHECK(depth.depth_mm.width() == depth.camera.width && depth.depth_mm.height() == depth.camera.height,
+  RP_CHECK(depth.depth_mm.width() == depth.camera.width &&
+               depth.depth_mm.height() == depth.camera.height,
            "depth image and camera differ in size");
-  if (std::none_of(depth.depth_mm.begin(), depth.depth_mm.end(), [](float mm) { return mm > 0.0f; })) {
+  if (std::none_of(
+          depth.depth_mm.begin(), depth.depth_mm.end(), [](float mm) { return mm > 0.0f; })) {
     throw Error("the depth image has no measured pixel; check the file and its depth_scale");
   }
   Estimate result;
@@ -260,12 +277,17 @@ Estimate estimatePoses(const DepthImage& depth,
     const Candidate& best = ranked.front();
     result.poses.push_back(estimateOf(best));
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
-    removeExplained(result.poses.back(), database.objects[static_cast<std::size_t>(best.object)], depth,
-                    result.noise_mm, stages, foreground);
+    removeExplained(result.poses.back(),
+                    database.objects[static_cast<std::size_t>(best.object)],
+                    depth,
+                    result.noise_mm,
+                    stages,
+                    foreground);
   }
-  std::stable_sort(result.poses.begin(), result.poses.end(), [](const PoseEstimate& a, const PoseEstimate& b) {
-    return a.check.score > b.check.score;
-  });
+  std::stable_sort(
+      result.poses.begin(), result.poses.end(), [](const PoseEstimate& a, const PoseEstimate& b) {
+        return a.check.score > b.check.score;
+      });
   return result;
 }
 

@@ -17,13 +17,14 @@
 namespace rangepose {
 
 struct EstimateOptions {
-  int starts = 3;            ///< start points (N_init, paper Sect. 6.1)
-  int kept_per_start = 256;  ///< hypotheses of a start that are refined with their view's own points
-  int verified = 6;          ///< refined hypotheses of a start that are rendered, refined again and checked
-  double min_score = 0.5;    ///< poses below are not reported
-  int max_poses = 1;         ///< poses wanted; more than one: what is explained is taken out, then again
+  int starts = 3;  ///< start points (N_init, paper Sect. 6.1)
+  int kept_per_start =
+      256;           ///< hypotheses of a start that are refined with their view's own points
+  int verified = 6;  ///< refined hypotheses of a start that are rendered, refined again and checked
+  double min_score = 0.5;  ///< poses below are not reported
+  int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
-  void check() const;        ///< throws Error naming the bad field
+  void check() const;  ///< throws Error naming the bad field
 };
 
 struct PoseEstimate {
@@ -32,36 +33,36 @@ struct PoseEstimate {
   Pose pose;                 ///< camera_from_object, refined
   float rough_error = 0.0f;  ///< Eq. 1
   int view = 0;
-  CheckResult check;         ///< check.score is the confidence, 0..1
+  CheckResult check;  ///< check.score is the confidence, 0..1
 };
 
 /// Pictures of what happened to one object; for dumps and comparisons.
 struct ObjectTrace {
-  Image<float> raw_range_px;            ///< before the median
+  Image<float> raw_range_px;  ///< before the median
   SceneChannels scene;
   Image<std::int32_t> labels;
   std::vector<Seed> seeds;
   std::vector<SceneChannels> windows;
-  std::vector<Hypothesis> hypotheses;   ///< of all windows and views
+  std::vector<Hypothesis> hypotheses;  ///< of all windows and views
   // What the stages were called with, for those who call them again.
-  ChannelOptions scene_options;         ///< of `scene`; windows: channelOptionsOf(object)
-  std::vector<PixelBox> window_regions; ///< depth pixels that each window was made from
-  std::vector<float> seed_range_px;     ///< range at the centre of each window [px]
+  ChannelOptions scene_options;          ///< of `scene`; windows: channelOptionsOf(object)
+  std::vector<PixelBox> window_regions;  ///< depth pixels that each window was made from
+  std::vector<float> seed_range_px;      ///< range at the centre of each window [px]
   SearchOptions search;
 };
 
 struct EstimateTrace {
   Image<std::uint8_t> foreground;
-  std::vector<PoseEstimate> verified;   ///< checked poses, one for each place, best first
-  std::vector<ObjectTrace> objects;     ///< one for each object of the database; first pass only
+  std::vector<PoseEstimate> verified;  ///< checked poses, one for each place, best first
+  std::vector<ObjectTrace> objects;    ///< one for each object of the database; first pass only
 };
 
 struct Estimate {
-  std::vector<PoseEstimate> poses;      ///< best first; empty is a valid answer
+  std::vector<PoseEstimate> poses;  ///< best first; empty is a valid answer
   StageTimes times;
-  double noise_mm = 0.0;                ///< estimated depth noise of the image [mm]
+  double noise_mm = 0.0;  ///< estimated depth noise of the image [mm]
   std::vector<BackgroundPlane> background;
-  std::vector<std::string> warnings;    ///< one line each
+  std::vector<std::string> warnings;  ///< one line each
 };
 
 /// Throws Error when the image has no measured pixel. `trace`, if not null, is filled.

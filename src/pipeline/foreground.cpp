@@ -13,8 +13,8 @@ constexpr int kTrialSamples = 1500;
 constexpr int kTrials = 4000;
 /// A wall makes at least this angle with the floor: cos 50 degrees.
 constexpr double kMaxWallCos = 0.64;
-/// The surface at a point of a plane is tilted against it by at most this: cos 25 degrees. A plane that cuts
-/// through a heap has as many points near it as a floor, but not their slope.
+/// The surface at a point of a plane is tilted against it by at most this: cos 25 degrees. A plane
+/// that cuts through a heap has as many points near it as a floor, but not their slope.
 constexpr double kMinTiltCos = 0.906;
 
 /// A measured point with the slope of the surface there.
@@ -34,8 +34,10 @@ bool surfaceNormal(const DepthImage& image, int u, int v, int reach, glm::dvec3&
   const double up = depth(u, v - reach);
   const double down = depth(u, v + reach);
   if (left == 0.0 || right == 0.0 || up == 0.0 || down == 0.0) return false;
-  const glm::dvec3 x = image.camera.unproject(u + reach, v, right) - image.camera.unproject(u - reach, v, left);
-  const glm::dvec3 y = image.camera.unproject(u, v + reach, down) - image.camera.unproject(u, v - reach, up);
+  const glm::dvec3 x =
+      image.camera.unproject(u + reach, v, right) - image.camera.unproject(u - reach, v, left);
+  const glm::dvec3 y =
+      image.camera.unproject(u, v + reach, down) - image.camera.unproject(u, v - reach, up);
   normal = glm::normalize(glm::cross(y, x));
   return true;
 }
@@ -43,14 +45,15 @@ bool surfaceNormal(const DepthImage& image, int u, int v, int reach, glm::dvec3&
 Samples sampled(const DepthImage& image, double part_mm) {
   const auto measured = std::count_if(
       image.depth_mm.begin(), image.depth_mm.end(), [](float depth) { return depth > 0.0f; });
-  const int stride = std::max(1, static_cast<int>(std::sqrt(static_cast<double>(measured) / kSamples)));
+  const int stride =
+      std::max(1, static_cast<int>(std::sqrt(static_cast<double>(measured) / kSamples)));
   Samples samples;
   for (int v = 0; v < image.depth_mm.height(); v += stride) {
     for (int u = 0; u < image.depth_mm.width(); u += stride) {
       const double depth = image.depth_mm.at(u, v);
       if (!(depth > 0.0)) continue;
-      const int reach = std::clamp(
-          static_cast<int>(0.05 * part_mm / image.camera.pixelSpacingMm(depth)), 2, 20);
+      const int reach =
+          std::clamp(static_cast<int>(0.05 * part_mm / image.camera.pixelSpacingMm(depth)), 2, 20);
       glm::dvec3 normal(0.0);
       surfaceNormal(image, u, v, reach, normal);
       samples.push_back({image.camera.unproject(u, v, depth), normal});
@@ -70,12 +73,13 @@ bool liesOn(const Sample& sample, const BackgroundPlane& plane, double tolerance
          glm::dot(sample.normal, plane.normal) > kMinTiltCos;
 }
 
-/// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no background.
+/// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no
+/// background.
 int countOn(const Samples& samples,
-              const BackgroundPlane& plane,
-              double tolerance,
-              std::size_t stride,
-              double max_behind) {
+            const BackgroundPlane& plane,
+            double tolerance,
+            std::size_t stride,
+            double max_behind) {
   int count = 0;
   int behind = 0;
   for (std::size_t i = 0; i < samples.size(); i += stride) {
@@ -138,7 +142,8 @@ Extent extentIn(const Scatter& scatter, const glm::dvec3& normal) {
   return {std::sqrt(12.0 * (middle + spread)), std::sqrt(12.0 * std::max(0.0, middle - spread))};
 }
 
-/// The plane through three random samples that most samples lie on, fitted to them; walls stand on `floor`.
+/// The plane through three random samples that most samples lie on, fitted to them; walls stand on
+/// `floor`.
 BackgroundPlane bestPlane(const Samples& samples,
                           const BackgroundPlane* floor,
                           bool orthographic,
@@ -161,7 +166,9 @@ BackgroundPlane bestPlane(const Samples& samples,
     if (length < 1e-9) continue;
     const BackgroundPlane plane = facingCamera(normal / length, a.point, orthographic);
     // Most triples lie on several surfaces: their slopes give them away before anything is counted.
-    if (!liesOn(a, plane, tolerance) || !liesOn(b, plane, tolerance) || !liesOn(c, plane, tolerance)) continue;
+    if (!liesOn(a, plane, tolerance) || !liesOn(b, plane, tolerance) ||
+        !liesOn(c, plane, tolerance))
+      continue;
     if (floor != nullptr && std::abs(glm::dot(plane.normal, floor->normal)) > kMaxWallCos) continue;
     const int count = countOn(samples, plane, tolerance, stride, max_behind_of_tried);
     if (count > best_count) {
@@ -179,7 +186,8 @@ BackgroundPlane bestPlane(const Samples& samples,
 
 }  // namespace
 
-std::vector<BackgroundPlane> findBackground(const DepthImage& image, const ForegroundOptions& options) {
+std::vector<BackgroundPlane> findBackground(const DepthImage& image,
+                                            const ForegroundOptions& options) {
   Samples rest = sampled(image, options.part_mm);
   const double total = static_cast<double>(rest.size());
   std::vector<BackgroundPlane> planes;
@@ -193,7 +201,8 @@ std::vector<BackgroundPlane> findBackground(const DepthImage& image, const Foreg
                                             options.max_behind * total,
                                             random);
     const Scatter scatter = scatterOn(rest, plane, options.tolerance_mm);
-    if (scatter.count < total * (is_floor ? options.min_floor_share : options.min_wall_share)) break;
+    if (scatter.count < total * (is_floor ? options.min_floor_share : options.min_wall_share))
+      break;
     const Extent extent = extentIn(scatter, plane.normal);
     const double scale = options.part_mm;
     if (extent.length_mm < (is_floor ? 1.3 : 0.7) * scale) break;

@@ -40,8 +40,8 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
-/// Of two poses that fit equally well the one that explains more of the scene is the better explanation: a
-/// part's face alone can be laid on many surfaces.
+/// Of two poses that fit equally well the one that explains more of the scene is the better
+/// explanation: a part's face alone can be laid on many surfaces.
 double rankOf(const CheckResult& check, const ReferenceObject& object) {
   double mean_area_px = 0.0;
   for (const ReferenceView& view : object.views) mean_area_px += static_cast<double>(view.area_px);
@@ -57,7 +57,8 @@ void refineOne(Candidate& candidate,
   const Camera& camera = scene.depth.camera;
   const double tolerance = toleranceFor(object, scene.noise_mm);
   const auto render = [&](SurfaceWindow& window) {
-    window = wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+    window =
+        wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
     return stages.renderSurface(object.mesh, camera, candidate.pose, window);
   };
   SurfaceWindow window;
@@ -66,12 +67,18 @@ void refineOne(Candidate& candidate,
     const std::vector<SurfacePoint> points =
         pointsOfSurface(surface, camera, window, candidate.pose, kFinePoints);
     const IcpOptions options = icpOptions((round == 0 ? 3.0 : 1.5) * tolerance, tolerance, 6);
-    candidate.pose = host::icp(points, camera, scene.foreground_mm, candidate.pose, object.center_mm,
-                               object.radius_mm, options)
+    candidate.pose = host::icp(points,
+                               camera,
+                               scene.foreground_mm,
+                               candidate.pose,
+                               object.center_mm,
+                               object.radius_mm,
+                               options)
                          .camera_from_object;
   }
   const Image<SurfaceTexel> surface = render(window);
-  candidate.check = host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
+  candidate.check =
+      host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
   candidate.rank = rankOf(candidate.check, object);
 }
 
@@ -83,10 +90,12 @@ double toleranceFor(const ReferenceObject& object, double noise_mm) {
 
 namespace {
 
-/// Judges rough poses by a few points of their views against the depth image, with a tolerance as wide as a rough
-/// pose is wrong. Unlike Eq. 1 it sees the difference between surface that is hidden and surface that is
-/// not there, which decides on parts that are partly covered.
-void judgeRoughly(std::vector<Candidate>& candidates, const ReferenceObject& object, const RefineScene& scene) {
+/// Judges rough poses by a few points of their views against the depth image, with a tolerance as
+/// wide as a rough pose is wrong. Unlike Eq. 1 it sees the difference between surface that is
+/// hidden and surface that is not there, which decides on parts that are partly covered.
+void judgeRoughly(std::vector<Candidate>& candidates,
+                  const ReferenceObject& object,
+                  const RefineScene& scene) {
   constexpr int kPoints = 40;
   constexpr int kCandidatesPerPiece = 64;
   CheckOptions options;
@@ -96,9 +105,13 @@ void judgeRoughly(std::vector<Candidate>& candidates, const ReferenceObject& obj
     for (int i = begin; i < end; ++i) {
       Candidate& candidate = candidates[static_cast<std::size_t>(i)];
       const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
-      const double visible_mm2 = static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
-      candidate.check = host::checkPoints(pointsOfView(object, candidate.view, kPoints), candidate.pose,
-                                          visible_mm2, scene.depth, options);
+      const double visible_mm2 =
+          static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
+      candidate.check = host::checkPoints(pointsOfView(object, candidate.view, kPoints),
+                                          candidate.pose,
+                                          visible_mm2,
+                                          scene.depth,
+                                          options);
       candidate.rank = rankOf(candidate.check, object);
     }
   });
@@ -110,13 +123,17 @@ template <typename Before>
 Order ordered(const std::vector<Candidate>& candidates, const Before& before) {
   Order order;
   for (const Candidate& candidate : candidates) order.push_back(&candidate);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](const Candidate* a, const Candidate* b) { return before(*a, *b); });
+  std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
+    return before(*a, *b);
+  });
   return order;
 }
 
 /// Takes from the two orders in turn what is not yet there, `count` in all.
-std::vector<Candidate> takeInTurn(const Order& first, const Order& second, const ReferenceObject& object, int count) {
+std::vector<Candidate> takeInTurn(const Order& first,
+                                  const Order& second,
+                                  const ReferenceObject& object,
+                                  int count) {
   constexpr double kSame = 0.04;
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -181,14 +198,24 @@ void alignWithViews(std::vector<Candidate>& candidates,
       const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
       const double tolerance = toleranceFor(object, scene.noise_mm);
       const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, round.points);
-      IcpOptions options = icpOptions(
-          round.first_reach * object.diameter_mm, round.last_tolerances * tolerance, round.iterations);
+      IcpOptions options = icpOptions(round.first_reach * object.diameter_mm,
+                                      round.last_tolerances * tolerance,
+                                      round.iterations);
       options.search_steps = round.search_steps;
-      candidate.pose = host::icp(points, scene.depth.camera, scene.foreground_mm, candidate.pose,
-                                 object.center_mm, object.radius_mm, options)
+      candidate.pose = host::icp(points,
+                                 scene.depth.camera,
+                                 scene.foreground_mm,
+                                 candidate.pose,
+                                 object.center_mm,
+                                 object.radius_mm,
+                                 options)
                            .camera_from_object;
-      const double visible_mm2 = static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
-      candidate.check = host::checkPoints(points, candidate.pose, visible_mm2, scene.depth,
+      const double visible_mm2 =
+          static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
+      candidate.check = host::checkPoints(points,
+                                          candidate.pose,
+                                          visible_mm2,
+                                          scene.depth,
                                           checkOptionsFor(object, scene.noise_mm));
       candidate.rank = rankOf(candidate.check, object);
     }
@@ -215,9 +242,9 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
                                     const ReferenceDatabase& database,
                                     int count) {
   constexpr double kSame = 0.03;
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.rank > b.rank;
-  });
+  std::stable_sort(candidates.begin(),
+                   candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
   std::vector<Candidate> best;
   std::map<std::pair<int, int>, int> taken;
   for (const Candidate& candidate : candidates) {
@@ -225,7 +252,8 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
     if (taken_here >= count) continue;
     const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
     const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      return other.object == candidate.object && distanceBetween(object, other.pose, candidate.pose) < kSame;
+      return other.object == candidate.object &&
+             distanceBetween(object, other.pose, candidate.pose) < kSame;
     });
     if (known) continue;
     best.push_back(candidate);
@@ -234,11 +262,12 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
   return best;
 }
 
-std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates, const ReferenceDatabase& database) {
+std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
+                                       const ReferenceDatabase& database) {
   constexpr double kSamePlace = 0.5;  // of the larger diameter
-  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
-    return a.rank > b.rank;
-  });
+  std::stable_sort(candidates.begin(),
+                   candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
   std::vector<Candidate> best;
   for (const Candidate& candidate : candidates) {
     const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
@@ -265,7 +294,8 @@ void refineFinely(std::vector<Candidate>& candidates,
   parallelFor(count, grain, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-      refineOne(candidate, database.objects[static_cast<std::size_t>(candidate.object)], scene, stages);
+      refineOne(
+          candidate, database.objects[static_cast<std::size_t>(candidate.object)], scene, stages);
     }
   });
 }

@@ -9,25 +9,27 @@ namespace rangepose {
 
 /// What refinement needs to know of a scene.
 struct RefineScene {
-  const DepthImage& depth;           ///< as measured: for the check
-  const Image<float>& foreground_mm; ///< without background: for the alignment
-  double noise_mm;                   ///< of the depth [mm]
+  const DepthImage& depth;            ///< as measured: for the check
+  const Image<float>& foreground_mm;  ///< without background: for the alignment
+  double noise_mm;                    ///< of the depth [mm]
 };
 
 /// A rough pose and what became of it.
 struct Candidate {
   int object = 0;
   int view = 0;
-  int window = 0;     ///< number of the start
+  int window = 0;  ///< number of the start
   float rough_error = 0.0f;
   Pose rough;
   Pose pose;
   CheckResult check;
-  double rank = 0.0;  ///< what candidates are ordered by: score, and how much of the scene it explains
+  double rank =
+      0.0;  ///< what candidates are ordered by: score, and how much of the scene it explains
 };
 
-/// The `count` most promising hypotheses of each window that differ from each other, as poses: half by the error
-/// of the rough search, half by a glance at the depth image. `cameras` are those of the windows.
+/// The `count` most promising hypotheses of each window that differ from each other, as poses: half
+/// by the error of the rough search, half by a glance at the depth image. `cameras` are those of
+/// the windows.
 std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       int object_index,
                                       const std::vector<Hypothesis>& hypotheses,
@@ -35,23 +37,27 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       const RefineScene& scene,
                                       int count);
 
-/// Aligns the candidates with the points of their own views and gives the `count` best of each start.
+/// Aligns the candidates with the points of their own views and gives the `count` best of each
+/// start.
 std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const ReferenceDatabase& database,
                                       const RefineScene& scene,
                                       int count);
 
-/// The `count` best candidates of each start that differ from each other: a start on something else may have
-/// candidates that look better than those of the start on the part.
+/// The `count` best candidates of each start that differ from each other: a start on something else
+/// may have candidates that look better than those of the start on the part.
 std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
                                     const ReferenceDatabase& database,
                                     int count);
 
-/// The candidate with the largest rank in each place, best score first: poses in one place compete to explain the
-/// same data, poses in different places may all be right and are ordered by how sure they are.
-std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates, const ReferenceDatabase& database);
+/// The candidate with the largest rank in each place, best score first: poses in one place compete
+/// to explain the same data, poses in different places may all be right and are ordered by how sure
+/// they are.
+std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
+                                       const ReferenceDatabase& database);
 
-/// Renders each candidate at the sensor's resolution, aligns the visible part, and checks the result.
+/// Renders each candidate at the sensor's resolution, aligns the visible part, and checks the
+/// result.
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,

@@ -37,7 +37,10 @@ OrthoCamera sceneCamera(const DepthImage& image,
   return camera;
 }
 
-OrthoCamera windowCamera(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm) {
+OrthoCamera windowCamera(const Camera& sensor,
+                         const glm::dvec3& point_mm,
+                         int width_px,
+                         double pixel_mm) {
   OrthoCamera camera;
   camera.width = width_px;
   camera.height = width_px;
@@ -51,7 +54,10 @@ OrthoCamera windowCamera(const Camera& sensor, const glm::dvec3& point_mm, int w
   return camera;
 }
 
-PixelBox windowRegion(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm) {
+PixelBox windowRegion(const Camera& sensor,
+                      const glm::dvec3& point_mm,
+                      int width_px,
+                      double pixel_mm) {
   const double reach = 0.5 * std::numbers::sqrt2 * width_px * pixel_mm;
   const SurfaceWindow window =
       windowAround(sensor, point_mm, reach, std::max(sensor.width, sensor.height));
@@ -60,7 +66,9 @@ PixelBox windowRegion(const Camera& sensor, const glm::dvec3& point_mm, int widt
   return {window.x0, window.y0, window.x0 + window.width, window.y0 + window.height};
 }
 
-Pose poseOf(const Hypothesis& hypothesis, const ReferenceObject& object, const OrthoCamera& window) {
+Pose poseOf(const Hypothesis& hypothesis,
+            const ReferenceObject& object,
+            const OrthoCamera& window) {
   const ReferenceView& view = object.views[static_cast<std::size_t>(hypothesis.view)];
   const glm::dvec3 center_mm = window.pixel_mm * glm::dvec3(hypothesis.translation_px);
   Pose pose;

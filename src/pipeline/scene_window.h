@@ -9,19 +9,25 @@
 
 namespace rangepose {
 
-/// Looks along the sensor's axis at all pixels of the mask, at `pixel_mm` a pixel or, where that would make
-/// more than `max_px` pixels along a side, coarser. Width 0 when the mask is empty.
+/// Looks along the sensor's axis at all pixels of the mask, at `pixel_mm` a pixel or, where that
+/// would make more than `max_px` pixels along a side, coarser. Width 0 when the mask is empty.
 OrthoCamera sceneCamera(const DepthImage& image,
                         const Image<std::uint8_t>& mask,
                         double pixel_mm,
                         int max_px);
 
-/// Looks along the sensor's viewing ray through `point_mm` (camera frame), which lies in the middle of the
-/// image: there an orthographic reference is a good model of what a perspective sensor sees.
-OrthoCamera windowCamera(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm);
+/// Looks along the sensor's viewing ray through `point_mm` (camera frame), which lies in the middle
+/// of the image: there an orthographic reference is a good model of what a perspective sensor sees.
+OrthoCamera windowCamera(const Camera& sensor,
+                         const glm::dvec3& point_mm,
+                         int width_px,
+                         double pixel_mm);
 
 /// Sensor pixels that can fall into such a window.
-PixelBox windowRegion(const Camera& sensor, const glm::dvec3& point_mm, int width_px, double pixel_mm);
+PixelBox windowRegion(const Camera& sensor,
+                      const glm::dvec3& point_mm,
+                      int width_px,
+                      double pixel_mm);
 
 /// The pose that a hypothesis stands for, in the frame of the sensor.
 Pose poseOf(const Hypothesis& hypothesis, const ReferenceObject& object, const OrthoCamera& window);

@@ -96,7 +96,9 @@ void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Ranked
     const float x = static_cast<float>(inner.x);
     const float y = static_cast<float>(inner.y);
     seeds.push_back(
-        {{x, y, inner.range_px, inner.distance_px, meanRange(patch, inner, around_px), size}, i, false});
+        {{x, y, inner.range_px, inner.distance_px, meanRange(patch, inner, around_px), size},
+         i,
+         false});
     std::erase_if(rest, [&](const Pixel& pixel) {
       return squaredDistance(pixel, x, y) < options.apart_px * options.apart_px;
     });
@@ -114,7 +116,8 @@ std::vector<Seed> findSeeds(const SceneChannels& scene,
     candidate.small = candidate.seed.patch_px < options.min_patch_px ||
                       candidate.seed.distance_px < options.min_distance_px;
   }
-  // Small patches come last, the largest first: of a part that is mostly hidden there is nothing else.
+  // Small patches come last, the largest first: of a part that is mostly hidden there is nothing
+  // else.
   std::stable_sort(all.begin(), all.end(), [](const RankedSeed& a, const RankedSeed& b) {
     if (a.small != b.small) return b.small;
     if (a.small) return a.seed.patch_px > b.seed.patch_px;

@@ -42,7 +42,8 @@ float medianOfNine(std::array<float, 9> p) {
   return std::min(p[4], p[2]);
 }
 
-float medianAt(const float* above, const float* here, const float* below, int left, int x, int right) {
+float medianAt(
+    const float* above, const float* here, const float* below, int left, int x, int right) {
   return medianOfNine({above[left],
                        above[x],
                        above[right],
@@ -99,7 +100,9 @@ Image<float> edges(const Image<float>& range_px, float threshold_px) {
   return result;
 }
 
-Image<EdtTexel> distanceTexels(const Image<float>& range_px, const Image<float>& edges, int passes) {
+Image<EdtTexel> distanceTexels(const Image<float>& range_px,
+                               const Image<float>& edges,
+                               int passes) {
   const int width = range_px.width();
   const int height = range_px.height();
   // A frame of texels without a site stands for everything outside of the image.

@@ -1,4 +1,5 @@
-// The image stages on the host: 3x3 median, edges, signed distance transform (paper Sect. 5.1, 5.2).
+// The image stages on the host: 3x3 median, edges, signed distance transform (paper
+// Sect. 5.1, 5.2).
 #pragma once
 
 #include "core/image.h"
@@ -19,11 +20,13 @@ Image<EdtTexel> distanceTexels(const Image<float>& range_px, const Image<float>&
 /// Signed distance [px]: the root of distanceTexels, clamped to +-(passes + 1).
 Image<float> distance(const Image<float>& range_px, const Image<float>& edges, int passes);
 
-/// Label of each pixel: the smallest index (y * width + x) among the 4-connected non-edge pixels with a
-/// range that it is connected to; kNoPatch on edges and background (paper Sect. 5.3).
+/// Label of each pixel: the smallest index (y * width + x) among the 4-connected non-edge pixels
+/// with a range that it is connected to; kNoPatch on edges and background (paper Sect. 5.3).
 Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges);
 
 /// Median, edges and distance in one call.
-SceneChannels channels(const OrthoCamera& camera, const Image<float>& range_px, const ChannelOptions& options);
+SceneChannels channels(const OrthoCamera& camera,
+                       const Image<float>& range_px,
+                       const ChannelOptions& options);
 
 }  // namespace rangepose::host

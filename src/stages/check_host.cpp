@@ -11,7 +11,8 @@ namespace {
 /// Reads the measured surface at camera pixels.
 class Measured {
  public:
-  Measured(const DepthImage& depth, double tolerance_mm) : depth_(depth), tolerance_mm_(tolerance_mm) {}
+  Measured(const DepthImage& depth, double tolerance_mm)
+      : depth_(depth), tolerance_mm_(tolerance_mm) {}
 
   bool inImage(int u, int v) const { return depth_.depth_mm.contains(u, v); }
   double at(int u, int v) const {
@@ -34,7 +35,8 @@ class Measured {
     if (before == 0.0 || after == 0.0) return std::nullopt;
     // Where the surface bends by more than the tolerance it is not one surface.
     if (std::abs(before + after - 2.0 * here) > 4.0 * tolerance_mm_) return std::nullopt;
-    return depth_.camera.unproject(u + du, v + dv, after) - depth_.camera.unproject(u - du, v - dv, before);
+    return depth_.camera.unproject(u + du, v + dv, after) -
+           depth_.camera.unproject(u - du, v - dv, before);
   }
 
   const DepthImage& depth_;
@@ -139,9 +141,9 @@ CheckResult summarize(const Tally& tally,
   result.weak = tally.weak / all;
   result.explained_mm2 = result.explained * visible_mm2;
   result.residual_mm = tally.agreeing > 0.0 ? tally.residual_mm / tally.agreeing : 0.0;
-  const double against = options.contradicted * result.contradicted + options.missing * result.missing +
-                         options.hidden * result.hidden + options.buried * result.buried +
-                         options.weak * result.weak;
+  const double against = options.contradicted * result.contradicted +
+                         options.missing * result.missing + options.hidden * result.hidden +
+                         options.buried * result.buried + options.weak * result.weak;
   result.score = result.explained / std::max(result.explained + against, 1e-9) * outline_factor;
   return result;
 }
@@ -160,10 +162,16 @@ CheckResult check(const Image<SurfaceTexel>& surface,
     for (int x = 0; x < surface.width(); ++x) {
       const SurfaceTexel& texel = surface.at(x, y);
       if (texel.w <= 0.0f) continue;
-      const double width_mm = window.step * depth.camera.pixelSpacingMm(static_cast<double>(texel.w));
+      const double width_mm =
+          window.step * depth.camera.pixelSpacingMm(static_cast<double>(texel.w));
       visible_mm2 += width_mm * width_mm;
-      judgePixel(texel, measured, window.x0 + x * window.step, window.y0 + y * window.step, normal_reach,
-                 options, tally);
+      judgePixel(texel,
+                 measured,
+                 window.x0 + x * window.step,
+                 window.y0 + y * window.step,
+                 normal_reach,
+                 options,
+                 tally);
       judgeBorder(surface, window, measured, x, y, options, tally);
     }
   }
@@ -187,14 +195,20 @@ CheckResult checkPoints(const std::vector<SurfacePoint>& points,
     if (!depth.camera.orthographic && point.z <= 1.0) continue;
     const glm::dvec2 pixel = glm::floor(depth.camera.project(point) + 0.5);
     // Not "outside", so that a NaN counts as outside too.
-    if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < depth.camera.width && pixel.y < depth.camera.height)) {
+    if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < depth.camera.width &&
+          pixel.y < depth.camera.height)) {
       ++tally.pixels;
       tally.missing += 1.0;
       continue;
     }
     const glm::vec3 normal(camera_from_object.rotation * glm::dvec3(surface.normal));
-    judgePixel(SurfaceTexel(normal, static_cast<float>(point.z)), measured, static_cast<int>(pixel.x),
-               static_cast<int>(pixel.y), kNormalReach, options, tally);
+    judgePixel(SurfaceTexel(normal, static_cast<float>(point.z)),
+               measured,
+               static_cast<int>(pixel.x),
+               static_cast<int>(pixel.y),
+               kNormalReach,
+               options,
+               tally);
   }
   return summarize(tally, options, 1.0, visible_mm2);
 }

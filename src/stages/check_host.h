@@ -21,17 +21,17 @@ struct CheckOptions {
 
 /// Shares of the model's visible surface (of its rendered pixels); the first six add up to 1.
 struct CheckResult {
-  double explained = 0.0;     ///< agrees with the data in depth and slope
-  double contradicted = 0.0;  ///< in front of the data: the sensor saw through it
-  double hidden = 0.0;        ///< well behind nearer data: something lies on it
-  double buried = 0.0;        ///< just behind nearer data: the data's surface is not the model's
-  double missing = 0.0;       ///< no measurement there
-  double weak = 0.0;          ///< near the data, but less than explained
-  double outline = 0.0;       ///< share of the outline where the data ends with the model, 0..1
-  double residual_mm = 0.0;   ///< mean absolute depth difference of the explained surface [mm]
-  double explained_mm2 = 0.0; ///< explained surface as the camera sees it [mm^2]
-  int pixels = 0;             ///< rendered pixels
-  double score = 0.0;         ///< 0..1, higher is better
+  double explained = 0.0;      ///< agrees with the data in depth and slope
+  double contradicted = 0.0;   ///< in front of the data: the sensor saw through it
+  double hidden = 0.0;         ///< well behind nearer data: something lies on it
+  double buried = 0.0;         ///< just behind nearer data: the data's surface is not the model's
+  double missing = 0.0;        ///< no measurement there
+  double weak = 0.0;           ///< near the data, but less than explained
+  double outline = 0.0;        ///< share of the outline where the data ends with the model, 0..1
+  double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
+  double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
+  int pixels = 0;              ///< rendered pixels
+  double score = 0.0;          ///< 0..1, higher is better
 };
 
 namespace host {
@@ -42,8 +42,8 @@ CheckResult check(const Image<SurfaceTexel>& surface,
                   const DepthImage& depth,
                   const CheckOptions& options);
 
-/// The same for points of the surface, without the outline (outline = 0, its share is left out of the
-/// score): cheap, for many hypotheses. `visible_mm2` is the area that the points stand for.
+/// The same for points of the surface, without the outline (outline = 0, its share is left out of
+/// the score): cheap, for many hypotheses. `visible_mm2` is the area that the points stand for.
 CheckResult checkPoints(const std::vector<SurfacePoint>& points,
                         const Pose& camera_from_object,
                         double visible_mm2,

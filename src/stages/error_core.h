@@ -14,33 +14,34 @@ namespace rangepose {
 
 /// Which factor favours views that show much of the object (the r_i of Eq. 1).
 enum class AreaFactor : int {
-  kNone = 0,        ///< 1
-  kIntended = 1,    ///< A_max / A_i: a small view has a larger error
-  kRoot = 2,        ///< sqrt(A_max / A_i)
-  kAsPrinted = 3,   ///< A_i / A_max, as printed in the paper: it does the opposite of its text
+  kNone = 0,       ///< 1
+  kIntended = 1,   ///< A_max / A_i: a small view has a larger error
+  kRoot = 2,       ///< sqrt(A_max / A_i)
+  kAsPrinted = 3,  ///< A_i / A_max, as printed in the paper: it does the opposite of its text
 };
 
 /// How pixels of the reference over missing scene range enter E_range.
 enum class HolePolicy : int {
-  kPaper = 0,    ///< difference 0, weight counted (Eq. 5 as printed)
-  kIgnore = 1,   ///< neither difference nor weight
-  kLimit = 2,    ///< difference range_limit_px: a hole is as bad as the worst surface
+  kPaper = 0,   ///< difference 0, weight counted (Eq. 5 as printed)
+  kIgnore = 1,  ///< neither difference nor weight
+  kLimit = 2,   ///< difference range_limit_px: a hole is as bad as the worst surface
 };
 
 struct ErrorOptions {
-  /// Weight of E_range, for ranges as a fraction of the image width (paper: 20). With ranges in pixels
-  /// that is lambda / image_width_px per pixel: 0.31 at 64 px.
+  /// Weight of E_range, for ranges as a fraction of the image width (paper: 20). With ranges in
+  /// pixels that is lambda / image_width_px per pixel: 0.31 at 64 px.
   float lambda = 20.0f;
-  int image_width_px = 64;       ///< width of a reference image [px]
-  float range_limit_px = 8.0f;   ///< range differences count at most this much [px]; infinite in the paper
+  int image_width_px = 64;  ///< width of a reference image [px]
+  float range_limit_px =
+      8.0f;  ///< range differences count at most this much [px]; infinite in the paper
   AreaFactor area = AreaFactor::kIntended;
   HolePolicy holes = HolePolicy::kIgnore;
   float lambdaPerPx() const { return lambda / static_cast<float>(image_width_px); }
   void check() const;
 };
 
-/// The four sums of Eq. 2, kept apart until the end so that back-ends can be compared before they are
-/// divided. Layout of an RGBA32F texel.
+/// The four sums of Eq. 2, kept apart until the end so that back-ends can be compared before they
+/// are divided. Layout of an RGBA32F texel.
 struct ErrorTerms {
   float cover_sum = 0.0f;     ///< sum f |EDT_I - EDT_R| [px]
   float cover_count = 0.0f;   ///< sum f
@@ -51,8 +52,8 @@ struct ErrorTerms {
 /// Error of a translation at which nothing can be compared (outside of the window).
 inline constexpr float kWorstError = 1.0e6f;
 
-/// One reference pixel against one scene pixel. `reference_*` as in ReferenceTexel; `predicted` is the
-/// range that the reference has after the translation [px].
+/// One reference pixel against one scene pixel. `reference_*` as in ReferenceTexel; `predicted` is
+/// the range that the reference has after the translation [px].
 RP_HD ErrorTerms errorOfPixel(float reference_distance,
                               float reference_cos,
                               float predicted,

@@ -1,12 +1,13 @@
-// One point of a projective ICP step and the solution of the step (paper Sect. 7; point-to-plane: Chen and
-// Medioni 1992). Shared by host and CUDA.
+// One point of a projective ICP step and the solution of the step (paper Sect. 7; point-to-plane:
+// Chen and Medioni 1992). Shared by host and CUDA.
 #pragma once
 
 #include "stages/device.h"
 
 namespace rangepose {
 
-/// Upper triangle of a symmetric 6x6 matrix, row by row, a right side, and the sums that say how good the fit is.
+/// Upper triangle of a symmetric 6x6 matrix, row by row, a right side, and the sums that say how
+/// good the fit is.
 struct IcpSums {
   double hessian[21];
   double gradient[6];
@@ -23,12 +24,12 @@ RP_HD void addRow(IcpSums& sums, const double (&row)[6], double residual, double
   }
 }
 
-/// Adds a model point with its scene point. Vectors are relative to the object's centre, in the camera
-/// frame, in units of the object's radius, so that turns and shifts weigh alike.
+/// Adds a model point with its scene point. Vectors are relative to the object's centre, in the
+/// camera frame, in units of the object's radius, so that turns and shifts weigh alike.
 ///
-/// The scene point is seen as the one that moves: the model's normal, which has no noise, is the plane's.
-/// `slide` is the share of a point-to-point term: it holds what point-to-plane leaves free, a model that reaches
-/// past the end of the data.
+/// The scene point is seen as the one that moves: the model's normal, which has no noise, is the
+/// plane's. `slide` is the share of a point-to-point term: it holds what point-to-plane leaves
+/// free, a model that reaches past the end of the data.
 RP_HD void addPair(IcpSums& sums,
                    const double (&model)[3],
                    const double (&normal)[3],
@@ -55,7 +56,8 @@ RP_HD void addPair(IcpSums& sums,
   addRow(sums, row_z, gap[2], weight * slide);
 }
 
-/// Solves (H + damping * I) x = g by Cholesky factorisation. False when H is not positive definite even so.
+/// Solves (H + damping * I) x = g by Cholesky factorisation. False when H is not positive definite
+/// even so.
 RP_HD bool solveStep(const IcpSums& sums, double damping, double (&x)[6]) {
   double a[6][6];
   int k = 0;

@@ -10,7 +10,8 @@ namespace rangepose {
 
 void IcpOptions::check() const {
   RP_CHECK(iterations >= 1, "icp iterations must be at least 1");
-  RP_CHECK(last_reach_mm > 0.0 && first_reach_mm >= last_reach_mm, "icp reach must be positive and not grow");
+  RP_CHECK(last_reach_mm > 0.0 && first_reach_mm >= last_reach_mm,
+           "icp reach must be positive and not grow");
   RP_CHECK(search_steps >= 0, "icp search_steps must not be negative");
   RP_CHECK(slide >= 0.0, "icp slide must not be negative");
 }
@@ -24,14 +25,15 @@ class Associator {
   Associator(const Camera& camera, const Image<float>& scene_mm, int steps)
       : camera_(camera), scene_mm_(scene_mm), steps_(steps) {}
 
-  /// The nearest measured point to `point` on a grid of pixels whose spacing follows from `reach_mm`;
-  /// nothing if the point is hidden or has no partner within the reach.
+  /// The nearest measured point to `point` on a grid of pixels whose spacing follows from
+  /// `reach_mm`; nothing if the point is hidden or has no partner within the reach.
   std::optional<glm::dvec3> partner(const glm::dvec3& point, double reach_mm) const {
     if (!camera_.orthographic && point.z <= 1.0) return std::nullopt;
     const glm::dvec2 pixel = camera_.project(point);
     const double u_real = std::floor(pixel.x + 0.5);
     const double v_real = std::floor(pixel.y + 0.5);
-    if (!(u_real >= 0.0 && v_real >= 0.0 && u_real < scene_mm_.width() && v_real < scene_mm_.height())) {
+    if (!(u_real >= 0.0 && v_real >= 0.0 && u_real < scene_mm_.width() &&
+          v_real < scene_mm_.height())) {
       return std::nullopt;
     }
     const int u = static_cast<int>(u_real);
@@ -90,8 +92,8 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
   options.check();
   const Associator associator(camera, scene_mm, options.search_steps);
   IcpResult result{start, 0.0, 0.0, 0};
-  const double shrink =
-      std::pow(options.last_reach_mm / options.first_reach_mm, 1.0 / std::max(1, options.iterations - 1));
+  const double shrink = std::pow(options.last_reach_mm / options.first_reach_mm,
+                                 1.0 / std::max(1, options.iterations - 1));
   double reach = options.first_reach_mm;
   for (int iteration = 0; iteration < options.iterations; ++iteration, reach *= shrink) {
     Pose& pose = result.camera_from_object;
@@ -110,10 +112,12 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
       assign(model, (point - center) / radius_mm);
       assign(normal, pose.rotation * glm::dvec3(surface.normal));
       assign(scene, (*partner - center) / radius_mm);
-      addPair(sums, model, normal, scene, tukey(glm::dot(gap, gap) / (reach * reach)), options.slide);
+      addPair(
+          sums, model, normal, scene, tukey(glm::dot(gap, gap) / (reach * reach)), options.slide);
     }
     result.iterations = iteration + 1;
-    result.paired = points.empty() ? 0.0 : static_cast<double>(pairs) / static_cast<double>(points.size());
+    result.paired =
+        points.empty() ? 0.0 : static_cast<double>(pairs) / static_cast<double>(points.size());
     if (pairs < 6) return result;
     result.rms_mm = radius_mm * std::sqrt(sums.squared_mm / std::max(sums.weight, 1e-9));
     double step[6];

@@ -46,7 +46,8 @@ float areaFactor(AreaFactor form, float area_px, float max_area_px) {
 glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px) {
   const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
   const float size = static_cast<float>(object.size);
-  // Window pixel of the anchor: u + margin + x must be the window's centre pixel, margin + size / 2.
+  // Window pixel of the anchor: u + margin + x must be the window's centre pixel, margin + size
+  // / 2.
   return {0.5f * size - reference.anchor_px.x,
           0.5f * size - reference.anchor_px.y,
           seed_range_px - (reference.anchor_px.z - size)};

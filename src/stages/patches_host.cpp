@@ -9,7 +9,9 @@ namespace {
 /// Union-find whose root is always the smallest index of its set.
 class Components {
  public:
-  explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Components(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
 
   int root(int index) {
     while (at(index) != index) {
@@ -38,7 +40,9 @@ class Components {
 Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) {
   const int width = range_px.width();
   const int height = range_px.height();
-  const auto inside = [&](int x, int y) { return range_px.at(x, y) != 0.0f && edges.at(x, y) == 0.0f; };
+  const auto inside = [&](int x, int y) {
+    return range_px.at(x, y) != 0.0f && edges.at(x, y) == 0.0f;
+  };
   Components components(range_px.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {

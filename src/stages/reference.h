@@ -13,32 +13,33 @@ namespace rangepose {
 
 /// One orientation of an object, seen by an orthographic camera.
 ///
-/// View frame: x right, y down, z away from the viewer, origin at the centre of the object's bounding
-/// sphere. x_view = rotation * (x_object - center_mm).
+/// View frame: x right, y down, z away from the viewer, origin at the centre of the object's
+/// bounding sphere. x_view = rotation * (x_object - center_mm).
 struct ReferenceView {
   glm::dmat3 rotation{1.0};  ///< view_from_object
   PixelBox box;              ///< smallest box around the object's pixels, in its tile [px]
   float area_px = 0.0f;      ///< number of pixels that show the object [px^2]
-  glm::vec3 anchor_px{0.0f}; ///< pixel with the largest EDT value: u, v in its tile, and its range [px]
+  glm::vec3 anchor_px{
+      0.0f};  ///< pixel with the largest EDT value: u, v in its tile, and its range [px]
 };
 
 /// Texel of the atlas (paper Sect. 4.1).
 /// r: signed distance to the nearest edge [px], > 0 on the object; g: range [px], 0 = background;
 /// b: 1 on an edge; a: |cos(view, normal)|, 0 = background.
 ///
-/// Range is measured from a plane `size` pixels in front of the sphere's centre, so it is positive on
-/// the object: range = z_view / pixel_mm + size.
+/// Range is measured from a plane `size` pixels in front of the sphere's centre, so it is positive
+/// on the object: range = z_view / pixel_mm + size.
 using ReferenceTexel = glm::vec4;
 
 struct ReferenceObject {
-  int id = 1;                        ///< BOP object id
-  Mesh mesh;                         ///< [mm], in the object's own frame
-  glm::dvec3 center_mm{0.0};         ///< centre of the bounding sphere, in the object's frame [mm]
-  double radius_mm = 0.0;            ///< of that sphere [mm]
-  double diameter_mm = 0.0;          ///< largest distance between two vertices [mm]
-  double pixel_mm = 0.0;             ///< width of a pixel of a view [mm]
-  int size = 64;                     ///< a tile is size x size pixels
-  int edt_passes = 0;                ///< passes of the distance transform: EDT values reach edt_passes + 1
+  int id = 1;                 ///< BOP object id
+  Mesh mesh;                  ///< [mm], in the object's own frame
+  glm::dvec3 center_mm{0.0};  ///< centre of the bounding sphere, in the object's frame [mm]
+  double radius_mm = 0.0;     ///< of that sphere [mm]
+  double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
+  double pixel_mm = 0.0;      ///< width of a pixel of a view [mm]
+  int size = 64;              ///< a tile is size x size pixels
+  int edt_passes = 0;         ///< passes of the distance transform: EDT values reach edt_passes + 1
   std::vector<ReferenceView> views;  ///< view i lies in tile i
   Image<ReferenceTexel> atlas;       ///< tiles in rows of `columns()`
 

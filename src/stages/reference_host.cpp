@@ -37,7 +37,9 @@ void describeTile(ReferenceObject& object, int index) {
     for (int u = 0; u < object.size; ++u) {
       const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
       if (texel.g == 0.0f) continue;
-      view.box = {std::min(view.box.x0, u), std::min(view.box.y0, v), std::max(view.box.x1, u + 1),
+      view.box = {std::min(view.box.x0, u),
+                  std::min(view.box.y0, v),
+                  std::max(view.box.x1, u + 1),
                   std::max(view.box.y1, v + 1)};
       view.area_px += 1.0f;
       if (texel.r <= largest) continue;
@@ -55,8 +57,10 @@ void renderTile(ReferenceObject& object, int index, const ChannelOptions& option
   const Camera camera = tileCamera(object);
   const SurfaceWindow window{0, 0, object.size, object.size, 1};
   const Image<SurfaceTexel> surface =
-      renderSurface(object.mesh, camera,
-                    tilePose(object, object.views[static_cast<std::size_t>(index)].rotation), window);
+      renderSurface(object.mesh,
+                    camera,
+                    tilePose(object, object.views[static_cast<std::size_t>(index)].rotation),
+                    window);
   Image<float> range(object.size, object.size, 0.0f);
   std::transform(surface.begin(), surface.end(), range.begin(), [&](const SurfaceTexel& texel) {
     return static_cast<float>(static_cast<double>(texel.w) / object.pixel_mm);
@@ -66,8 +70,8 @@ void renderTile(ReferenceObject& object, int index, const ChannelOptions& option
   const glm::ivec2 origin = object.tileOrigin(index);
   for (int v = 0; v < object.size; ++v) {
     for (int u = 0; u < object.size; ++u) {
-      object.atlas.at(origin.x + u, origin.y + v) = {signed_distance.at(u, v), range.at(u, v), edge.at(u, v),
-                                                     std::abs(surface.at(u, v).z)};
+      object.atlas.at(origin.x + u, origin.y + v) = {
+          signed_distance.at(u, v), range.at(u, v), edge.at(u, v), std::abs(surface.at(u, v).z)};
     }
   }
   describeTile(object, index);
@@ -83,7 +87,8 @@ void renderReferences(ReferenceObject& object,
   const int columns = atlasColumns(count);
   const int rows = (count + columns - 1) / columns;
   object.edt_passes = options.edt_passes;
-  object.atlas = Image<ReferenceTexel>(columns * object.size, rows * object.size, ReferenceTexel(0.0f));
+  object.atlas =
+      Image<ReferenceTexel>(columns * object.size, rows * object.size, ReferenceTexel(0.0f));
   std::mutex progress_mutex;
   int done = 0;
   constexpr int kViewsPerPiece = 16;

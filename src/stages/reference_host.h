@@ -18,8 +18,8 @@ void describeTile(ReferenceObject& object, int view);
 
 namespace host {
 
-/// Renders object.views into object.atlas. `progress(done, total)` is called now and then by one thread
-/// at a time; it may be empty.
+/// Renders object.views into object.atlas. `progress(done, total)` is called now and then by one
+/// thread at a time; it may be empty.
 void renderReferences(ReferenceObject& object,
                       const ChannelOptions& options,
                       const std::function<void(int done, int total)>& progress);

@@ -43,12 +43,12 @@ struct ChannelOptions {
 
 /// A start of the simplex: the most inner pixel of a patch (paper Sect. 6.1).
 struct Seed {
-  float x_px = 0.0f;          ///< column in the orthographic scene image [px]
-  float y_px = 0.0f;          ///< row [px]
-  float range_px = 0.0f;      ///< range there [px]
-  float distance_px = 0.0f;   ///< EDT value there: size of the patch [px]
-  float mean_range_px = 0.0f; ///< mean range of its patch [px]
-  int patch_px = 0;           ///< pixels in its patch
+  float x_px = 0.0f;           ///< column in the orthographic scene image [px]
+  float y_px = 0.0f;           ///< row [px]
+  float range_px = 0.0f;       ///< range there [px]
+  float distance_px = 0.0f;    ///< EDT value there: size of the patch [px]
+  float mean_range_px = 0.0f;  ///< mean range of its patch [px]
+  int patch_px = 0;            ///< pixels in its patch
 };
 
 }  // namespace rangepose

@@ -21,10 +21,10 @@ struct SearchOptions {
 
 /// The best translation of one view in one scene window.
 ///
-/// translation_px: where the centre of the object's bounding sphere lies, relative to the window's centre
-/// (x, y) and to its range origin (z) [px]. A reference pixel (u, v) is read against window pixel
-/// (u + margin + floor(x + 0.5), ...), margin = (window width - size) / 2, and predicts the range
-/// g - size + z.
+/// translation_px: where the centre of the object's bounding sphere lies, relative to the window's
+/// centre (x, y) and to its range origin (z) [px]. A reference pixel (u, v) is read against window
+/// pixel (u + margin + floor(x + 0.5), ...), margin = (window width - size) / 2, and predicts the
+/// range g - size + z.
 struct Hypothesis {
   int view = 0;
   int window = 0;
@@ -33,16 +33,16 @@ struct Hypothesis {
   int iterations = 0;
 };
 
-/// A shift beyond this is worth kWorstError: the object would have left the window [px]. Window pixels that
-/// are read outside of the window count as background.
+/// A shift beyond this is worth kWorstError: the object would have left the window [px]. Window
+/// pixels that are read outside of the window count as background.
 RP_HD float maxShiftPx(int size) { return 0.75f * static_cast<float>(size); }
 
 /// r_i of Eq. 1.
 float areaFactor(AreaFactor form, float area_px, float max_area_px);
 
 /// Where the simplex of a view starts: the view's anchor (its own most inner pixel) is laid on the
-/// window's centre at the seed's range. Differs from the paper: it lays the middle of the tile there, which
-/// for a bent part may be a hole.
+/// window's centre at the seed's range. Differs from the paper: it lays the middle of the tile
+/// there, which for a bent part may be a hole.
 glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px);
 
 }  // namespace rangepose

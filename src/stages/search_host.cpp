@@ -86,7 +86,8 @@ RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e, float cover_count, floa
       kept += seen == zero ? zero : cosine;
     }
   }
-  // What is kept is added up, not what is lost taken away: over nothing but holes it must be exactly 0.
+  // What is kept is added up, not what is lost taken away: over nothing but holes it must be
+  // exactly 0.
   const float weight = e.holes == HolePolicy::kIgnore ? sum8(kept) : range_weight;
   return {sum8(cover), cover_count, sum8(range), weight};
 }
@@ -196,8 +197,10 @@ std::vector<Hypothesis> search(const ReferenceObject& object,
         while (state.phase != static_cast<int>(SimplexPhase::kDone)) {
           const glm::vec3 at(state.candidate.x, state.candidate.y, state.candidate.z);
           const ErrorTerms terms = termsAt(packed, i, object.size, window, at, options.error);
-          state = simplexStep(
-              state, errorValue(terms, lambda, area), options.simplex.spread, options.simplex.max_iterations);
+          state = simplexStep(state,
+                              errorValue(terms, lambda, area),
+                              options.simplex.spread,
+                              options.simplex.max_iterations);
         }
         const SimplexPoint& best = state.vertex[state.lowest];
         hypotheses[w * object.views.size() + static_cast<std::size_t>(i)] = {

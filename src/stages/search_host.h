@@ -9,8 +9,8 @@
 
 namespace rangepose::host {
 
-/// The views of an object, packed for the inner loop: planes of floats instead of texels, rows cut to where
-/// the object is and padded to whole vectors with pixels that weigh nothing.
+/// The views of an object, packed for the inner loop: planes of floats instead of texels, rows cut
+/// to where the object is and padded to whole vectors with pixels that weigh nothing.
 class PackedViews {
  public:
   static constexpr int kLanes = 8;
@@ -47,8 +47,8 @@ class PackedViews {
   std::vector<float> cosine_;
 };
 
-/// The sums of Eq. 2 of every view at its translation (one per view) in one window. The order of the sums is
-/// fixed: eight partial sums over the columns of each row, added up at the end.
+/// The sums of Eq. 2 of every view at its translation (one per view) in one window. The order of
+/// the sums is fixed: eight partial sums over the columns of each row, added up at the end.
 std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
                                    const PackedViews& packed,
                                    const SceneChannels& window,

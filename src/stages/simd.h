@@ -11,8 +11,8 @@
 
 namespace rangepose {
 
-/// GCC and Clang turn this into one AVX register or two SSE or NEON ones; the arithmetic, and with it
-/// every result, is the same.
+/// GCC and Clang turn this into one AVX register or two SSE or NEON ones; the arithmetic, and with
+/// it every result, is the same.
 using Float8 = float __attribute__((vector_size(32)));
 
 RP_ALWAYS_INLINE Float8 load8(const float* from) {
@@ -31,7 +31,8 @@ RP_ALWAYS_INLINE float sum8(const Float8& v) {
 }  // namespace rangepose
 
 // Sanitizers start later than the resolvers of cloned functions run.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
+    !defined(__SANITIZE_ADDRESS__)
 #define RP_SIMD_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define RP_SIMD_CLONES

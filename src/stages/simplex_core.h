@@ -1,6 +1,6 @@
 // Downhill simplex over (x, y, z) as a pure state machine (paper Sect. 6.3; Nelder and Mead 1965).
-// One call takes the value of the last candidate and gives the next one, so that every back-end can run
-// thousands of searches in lockstep. Twin: glsl/simplex_step.frag.
+// One call takes the value of the last candidate and gives the next one, so that every back-end can
+// run thousands of searches in lockstep. Twin: glsl/simplex_step.frag.
 #pragma once
 
 #include "stages/device.h"
@@ -161,7 +161,8 @@ RP_HD SimplexState simplexStep(SimplexState s, float value, float spread, int ma
     const SimplexPoint best = s.vertex[s.lowest];
     for (int i = 0; i < 4; ++i) {
       SimplexPoint& v = s.vertex[i];
-      if (i != s.lowest) v = {0.5f * (v.x + best.x), 0.5f * (v.y + best.y), 0.5f * (v.z + best.z), 0.0f};
+      if (i != s.lowest)
+        v = {0.5f * (v.x + best.x), 0.5f * (v.y + best.y), 0.5f * (v.z + best.z), 0.0f};
     }
     nextShrink(s, 0, spread, max_iterations);
     return s;

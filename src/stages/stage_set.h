@@ -1,7 +1,8 @@
 // All stages on one path (host, glsl, cuda), behind one interface.
 //
-// Two ways to call them: one stage at a time with images in host memory (tests, `rangepose compare`), or chained with
-// the images kept where the path keeps them (`prepare`, `search`: the pipeline).
+// Two ways to call them: one stage at a time with images in host memory (tests, `rangepose
+// compare`), or chained with the images kept where the path keeps them (`prepare`, `search`: the
+// pipeline).
 #pragma once
 
 #include <cstdint>
@@ -73,16 +74,16 @@ class StageSet {
                                                  const ChannelOptions& options) = 0;
   virtual std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) = 0;
   virtual Image<std::int32_t> patches(const ResidentScene& scene) = 0;
-  /// Windows come from `prepare` or `upload` of the same path. One hypothesis a view and window, ordered by
-  /// window, then view; seed_range_px[w] is the range at the centre of window w.
+  /// Windows come from `prepare` or `upload` of the same path. One hypothesis a view and window,
+  /// ordered by window, then view; seed_range_px[w] is the range at the centre of window w.
   virtual std::vector<Hypothesis> search(const ReferenceObject& object,
                                          const std::vector<const ResidentScene*>& windows,
                                          const std::vector<float>& seed_range_px,
                                          const SearchOptions& options) = 0;
 };
 
-/// The host path. Keeps a packed copy of the views of each object that it has searched; objects must outlive
-/// it and not move.
+/// The host path. Keeps a packed copy of the views of each object that it has searched; objects
+/// must outlive it and not move.
 std::unique_ptr<StageSet> makeHostStages();
 
 }  // namespace rangepose

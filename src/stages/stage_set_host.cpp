@@ -41,7 +41,9 @@ class HostStages : public StageSet {
                                  int passes) override {
     return host::distanceTexels(range_px, edges, passes);
   }
-  Image<float> distance(const Image<float>& range_px, const Image<float>& edges, int passes) override {
+  Image<float> distance(const Image<float>& range_px,
+                        const Image<float>& edges,
+                        int passes) override {
     return host::distance(range_px, edges, passes);
   }
   Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {

@@ -10,7 +10,8 @@ namespace rangepose {
 
 namespace {
 
-/// Bounds of the projection of a box around a sphere, in pixels: a little larger than those of the sphere.
+/// Bounds of the projection of a box around a sphere, in pixels: a little larger than those of the
+/// sphere.
 struct Bounds {
   glm::dvec2 low{std::numeric_limits<double>::max()};
   glm::dvec2 high{std::numeric_limits<double>::lowest()};
@@ -20,7 +21,8 @@ Bounds projectedBounds(const Camera& camera, const glm::dvec3& center_mm, double
   Bounds bounds;
   if (!camera.orthographic && center_mm.z - radius_mm <= 0.0) return bounds;
   for (int corner = 0; corner < 8; ++corner) {
-    const glm::dvec3 sign((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+    const glm::dvec3 sign(
+        (corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
     const glm::dvec2 pixel = camera.project(center_mm + radius_mm * sign);
     bounds.low = glm::min(bounds.low, pixel);
     bounds.high = glm::max(bounds.high, pixel);
@@ -119,8 +121,8 @@ void fillTriangle(const std::array<ScreenVertex, 3>& corner,
   const int x1 = static_cast<int>(std::floor(std::min(high.x, window.width - 1.0)));
   const int y1 = static_cast<int>(std::floor(std::min(high.y, window.height - 1.0)));
   if (x0 > x1 || y0 > y1) return;
-  glm::dvec3 normal = glm::cross(corner[1].point_mm - corner[0].point_mm,
-                                 corner[2].point_mm - corner[0].point_mm);
+  glm::dvec3 normal =
+      glm::cross(corner[1].point_mm - corner[0].point_mm, corner[2].point_mm - corner[0].point_mm);
   const double length = glm::length(normal);
   if (length == 0.0) return;
   normal /= length;
@@ -129,7 +131,8 @@ void fillTriangle(const std::array<ScreenVertex, 3>& corner,
   }
   const DepthPlane plane(camera, normal, corner[0].point_mm);
   const double low_z = std::min({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
-  const double high_z = std::max({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
+  const double high_z =
+      std::max({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
   const double sign = area > 0.0 ? 1.0 : -1.0;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
@@ -141,7 +144,8 @@ void fillTriangle(const std::array<ScreenVertex, 3>& corner,
       }
       // A face seen edge on has no stable plane: its corners bound the depth.
       const double z = plane.depth(window.x0 + x * window.step, window.y0 + y * window.step);
-      const float depth = static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z, high_z) : low_z);
+      const float depth =
+          static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z, high_z) : low_z);
       SurfaceTexel& texel = surface.at(x, y);
       if (texel.w == 0.0f || depth < texel.w) texel = SurfaceTexel(glm::vec3(normal), depth);
     }

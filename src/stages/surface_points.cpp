@@ -8,7 +8,8 @@ namespace {
 
 /// Rows and columns to skip so that about `max_points` of `count` remain.
 int strideFor(float count, int max_points) {
-  return std::max(1, static_cast<int>(std::ceil(std::sqrt(count / static_cast<float>(max_points)))));
+  return std::max(1,
+                  static_cast<int>(std::ceil(std::sqrt(count / static_cast<float>(max_points)))));
 }
 
 }  // namespace
@@ -25,16 +26,20 @@ std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, 
   const auto range = [&](int u, int v) { return object.atlas.at(origin.x + u, origin.y + v).g; };
   std::vector<SurfacePoint> points;
   // A pixel that is no edge has eight neighbours on the same smooth surface.
-  for (int v = std::max(reference.box.y0, 1); v < std::min(reference.box.y1, object.size - 1); v += stride) {
-    for (int u = std::max(reference.box.x0, 1); u < std::min(reference.box.x1, object.size - 1); u += stride) {
+  for (int v = std::max(reference.box.y0, 1); v < std::min(reference.box.y1, object.size - 1);
+       v += stride) {
+    for (int u = std::max(reference.box.x0, 1); u < std::min(reference.box.x1, object.size - 1);
+         u += stride) {
       if (!usable(u, v)) continue;
       const double half = 0.5 * object.size;
-      const glm::dvec3 in_view(u + 0.5 - half, v + 0.5 - half, static_cast<double>(range(u, v)) - object.size);
+      const glm::dvec3 in_view(
+          u + 0.5 - half, v + 0.5 - half, static_cast<double>(range(u, v)) - object.size);
       const glm::dvec3 normal = glm::normalize(glm::dvec3(0.5 * (range(u + 1, v) - range(u - 1, v)),
                                                           0.5 * (range(u, v + 1) - range(u, v - 1)),
                                                           -1.0));
-      points.push_back({glm::vec3(object_from_view * (in_view * object.pixel_mm) + object.center_mm),
-                        glm::vec3(object_from_view * normal)});
+      points.push_back(
+          {glm::vec3(object_from_view * (in_view * object.pixel_mm) + object.center_mm),
+           glm::vec3(object_from_view * normal)});
     }
   }
   return points;

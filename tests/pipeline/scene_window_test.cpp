@@ -18,13 +18,9 @@ namespace {
 constexpr int kWidthPx = 128;
 constexpr double kPixelMm = 0.9;
 
-Camera pinhole() {
-  return test::pinholeCamera(640, 480, 420.0);
-}
+Camera pinhole() { return test::pinholeCamera(640, 480, 420.0); }
 
-Camera parallel() {
-  return test::parallelCamera(640, 480, 0.8);
-}
+Camera parallel() { return test::parallelCamera(640, 480, 0.8); }
 
 /// Points all over what a sensor sees.
 std::vector<glm::dvec3> pointsSeenBy(const Camera& sensor) {
@@ -161,8 +157,8 @@ TEST_P(SensorTest, PoseOfAHypothesisIsThePoseItStandsFor) {
     const ReferenceObject object = objectSeenBy(window, pose);
     Hypothesis hypothesis;
     hypothesis.view = 3;
-    hypothesis.translation_px = glm::vec3(
-        window.camera_from_ortho.inverse() * (pose * object.center_mm) / kPixelMm);
+    hypothesis.translation_px =
+        glm::vec3(window.camera_from_ortho.inverse() * (pose * object.center_mm) / kPixelMm);
     const Pose found = poseOf(hypothesis, object, window);
     EXPECT_LT(rotationAngleBetween(found.rotation, pose.rotation), 1e-6);
     expectNear(found.translation_mm, pose.translation_mm, 1e-3);
@@ -173,11 +169,8 @@ TEST_P(SensorTest, PoseOfAHypothesisIsThePoseItStandsFor) {
 /// g - size + z: the vertex it shows must be where the pose puts that vertex.
 TEST_P(SensorTest, PoseOfAHypothesisPutsVerticesWhereTheReferenceLies) {
   const glm::dvec3 point = pointsSeenBy(sensor())[1];
-  ReferenceObject object = describeObject(test::meshOf(test::bracketBoxes()),
-                                          1,
-                                          64,
-                                          uniformRotations(5),
-                                          channelOptionsFor(64));
+  ReferenceObject object = describeObject(
+      test::meshOf(test::bracketBoxes()), 1, 64, uniformRotations(5), channelOptionsFor(64));
   const OrthoCamera window = windowCamera(sensor(), point, 2 * object.size, object.pixel_mm);
   const double margin = 0.5 * (window.width - object.size);
   for (int view = 0; view < 5; ++view) {
@@ -186,24 +179,23 @@ TEST_P(SensorTest, PoseOfAHypothesisPutsVerticesWhereTheReferenceLies) {
     hypothesis.translation_px = {4.0f, -7.0f, 610.0f};
     const Pose found = poseOf(hypothesis, object, window);
     const Camera tile = tileCamera(object);
-    const Pose tile_pose =
-        tilePose(object, object.views[static_cast<std::size_t>(view)].rotation);
+    const Pose tile_pose = tilePose(object, object.views[static_cast<std::size_t>(view)].rotation);
     for (const glm::vec3& vertex : object.mesh.vertices) {
       const glm::dvec3 in_tile = tile_pose * glm::dvec3(vertex);
       const glm::dvec2 uv = tile.project(in_tile);
-      const glm::dvec3 laid = window.camera_from_ortho *
-                              window.orthoFromPixel(uv.x + margin + 4.0,
-                                                    uv.y + margin - 7.0,
-                                                    in_tile.z / object.pixel_mm - object.size + 610.0);
+      const glm::dvec3 laid =
+          window.camera_from_ortho *
+          window.orthoFromPixel(uv.x + margin + 4.0,
+                                uv.y + margin - 7.0,
+                                in_tile.z / object.pixel_mm - object.size + 610.0);
       expectNear(found * glm::dvec3(vertex), laid, 1e-4);
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Sensors,
-                         SensorTest,
-                         testing::Bool(),
-                         [](const auto& info) { return info.param ? "parallel" : "pinhole"; });
+INSTANTIATE_TEST_SUITE_P(Sensors, SensorTest, testing::Bool(), [](const auto& made) {
+  return made.param ? "parallel" : "pinhole";
+});
 
 TEST(WindowRegionTest, PointTooNearReadsTheWholeImage) {
   const PixelBox region = windowRegion(pinhole(), {0.0, 0.0, 30.0}, kWidthPx, kPixelMm);

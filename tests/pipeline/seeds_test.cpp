@@ -72,7 +72,8 @@ TEST(SeedsTest, NearestPatchComesFirst) {
 }
 
 TEST(SeedsTest, MeanRangeDecidesNotTheNearestPixel) {
-  Scene scene = Scene(40, 20).patch({0, 0, 9, 9}, 100.0f, 99.0f).patch({20, 0, 29, 9}, 99.0f, 99.0f);
+  Scene scene =
+      Scene(40, 20).patch({0, 0, 9, 9}, 100.0f, 99.0f).patch({20, 0, 29, 9}, 99.0f, 99.0f);
   scene.channels().range_px.at(1, 1) = 80.0f;
   const std::vector<Seed> seeds = scene.seeds(wanting(2));
   ASSERT_EQ(seeds.size(), 2u);
@@ -123,8 +124,8 @@ TEST(SeedsTest, MergedPatchGetsFurtherStartsAfterTheFirstOfOthers) {
   options.max_patch_px = 1000;
   options.apart_px = 25.0f;
   const Scene scene = Scene(160, 60)
-                          .patch({0, 0, 110, 20}, 100.0f, 6.0f)    // 2200 px: several parts
-                          .patch({0, 30, 20, 50}, 200.0f, 99.0f)   // 400 px: one
+                          .patch({0, 0, 110, 20}, 100.0f, 6.0f)   // 2200 px: several parts
+                          .patch({0, 30, 20, 50}, 200.0f, 99.0f)  // 400 px: one
                           .patch({40, 30, 60, 50}, 150.0f, 99.0f);
   const std::vector<Seed> seeds = scene.seeds(options);
   ASSERT_EQ(seeds.size(), 5u);
@@ -146,8 +147,7 @@ TEST(SeedsTest, FurtherStartsKeepOffTheBorder) {
   SeedOptions options = wanting(50);
   options.max_patch_px = 100;
   options.apart_px = 12.0f;
-  const std::vector<Seed> seeds =
-      Scene(80, 30).patch({0, 0, 70, 20}, 100.0f, 99.0f).seeds(options);
+  const std::vector<Seed> seeds = Scene(80, 30).patch({0, 0, 70, 20}, 100.0f, 99.0f).seeds(options);
   EXPECT_GE(seeds.size(), 4u);
   EXPECT_LE(seeds.size(), 16u);
   for (const Seed& seed : seeds) EXPECT_GE(seed.distance_px, options.min_distance_px);
@@ -163,9 +163,9 @@ TEST(SeedsTest, OrdinaryPatchGetsOneStart) {
 TEST(SeedsTest, SmallPatchesOnlyWhenLargerOnesAreTooFew) {
   const Scene scene = Scene(80, 40)
                           .patch({0, 0, 9, 9}, 300.0f, 99.0f)
-                          .patch({20, 0, 24, 4}, 100.0f, 99.0f)   // 16 px
-                          .patch({40, 0, 44, 3}, 50.0f, 99.0f)    // 12 px
-                          .patch({0, 20, 60, 22}, 20.0f, 99.0f)   // 120 px, but thin: EDT 1
+                          .patch({20, 0, 24, 4}, 100.0f, 99.0f)  // 16 px
+                          .patch({40, 0, 44, 3}, 50.0f, 99.0f)   // 12 px
+                          .patch({0, 20, 60, 22}, 20.0f, 99.0f)  // 120 px, but thin: EDT 1
                           .patch({20, 10, 29, 19}, 310.0f, 99.0f);
   const std::vector<Seed> two = scene.seeds(wanting(2));
   ASSERT_EQ(two.size(), 2u);

@@ -87,12 +87,10 @@ TEST_P(SymmetriesTest, DifferFromEachOther) {
 INSTANTIATE_TEST_SUITE_P(Models,
                          SymmetriesTest,
                          testing::Values("t_pipe", "bolt", "elbow", "bracket"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& made) { return made.param; });
 
 TEST(SymmetriesTest, CountsAreThoseOfTheModels) {
-  const auto count = [](const char* part) {
-    return test::symmetriesOf(part, model(part)).size();
-  };
+  const auto count = [](const char* part) { return test::symmetriesOf(part, model(part)).size(); };
   EXPECT_EQ(count("bolt"), 6u);
   EXPECT_EQ(count("t_pipe"), 2u);
   EXPECT_EQ(count("elbow"), 2u);

@@ -50,20 +50,18 @@ ReferenceDatabase databaseOf(const std::string& part) {
   return database;
 }
 
-/// Whether the best pose is right; -1 as error where there is none.
-double shareOfDiameter(const ReferenceDatabase& database,
-                       const std::vector<Pose>& symmetries,
-                       const test::PoseTrial& trial,
-                       StageSet& stages) {
+/// Vertex error of the best pose as a share of the diameter; -1 where there is no pose.
+double errorShare(const ReferenceDatabase& database,
+                  const std::vector<Pose>& symmetries,
+                  const test::PoseTrial& trial,
+                  StageSet& stages) {
   const ReferenceObject& object = database.objects.front();
   EstimateOptions options;
   options.min_score = 0.0;
   const Estimate estimate = estimatePoses(trial.image, std::nullopt, database, options, stages);
   if (estimate.poses.empty()) return -1.0;
-  return test::vertexError(object.mesh,
-                           symmetries,
-                           estimate.poses.front().pose,
-                           trial.camera_from_object) /
+  return test::vertexError(
+             object.mesh, symmetries, estimate.poses.front().pose, trial.camera_from_object) /
          object.diameter_mm;
 }
 
@@ -100,7 +98,7 @@ Share tryAll(const std::vector<Condition>& conditions) {
         if (condition.hidden > 0.0) {
           EXPECT_NEAR(trial.hidden, condition.hidden, 0.1) << part << ", seed " << seed;
         }
-        const double error = shareOfDiameter(database, symmetries, trial, *stages);
+        const double error = errorShare(database, symmetries, trial, *stages);
         const bool right = error >= 0.0 && error < kRight;
         share.right += right ? 1 : 0;
         if (!right) std::cout << "  wrong: " << part << ", seed " << seed << ", " << error << "\n";

@@ -1,6 +1,7 @@
-// The main job on real scans. They are not part of the project: RANGEPOSE_REAL_SCANS names their folder, without it
-// these tests skip. There is no ground truth; what is asserted are scores, and that nothing is found where there is
-// nothing to find. Whether a pose is right is judged by eye on the overlays that tools/real_scans writes.
+// The main job on real scans. They are not part of the project: RANGEPOSE_REAL_SCANS names their
+// folder, without it these tests skip. There is no ground truth; what is asserted are scores, and
+// that nothing is found where there is nothing to find. Whether a pose is right is judged by eye on
+// the overlays that tools/real_scans writes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -38,20 +39,26 @@ class RealScansTest : public ::testing::Test {
     constexpr int kSize = 64;
     const ChannelOptions options = channelOptionsFor(kSize);
     ReferenceDatabase database;
-    database.objects.push_back(describeObject(
-        readMesh(scans_ / model, LengthUnit::kMillimetre), 1, kSize, uniformRotations(1024), options));
+    database.objects.push_back(describeObject(readMesh(scans_ / model, LengthUnit::kMillimetre),
+                                              1,
+                                              kSize,
+                                              uniformRotations(1024),
+                                              options));
     host::renderReferences(database.objects.front(), options, {});
     return database;
   }
 
   /// Score of the best pose, 0 for none.
-  double bestScore(const ReferenceDatabase& database, const fs::path& depth, const fs::path& camera) {
+  double bestScore(const ReferenceDatabase& database,
+                   const fs::path& depth,
+                   const fs::path& camera) {
     EstimateOptions options;
     options.min_score = 0.0;
     const DepthImage image = readDepth(scans_ / depth, readCamera(scans_ / camera));
     const Estimate estimate = estimatePoses(image, std::nullopt, database, options, *stages_);
     const double score = estimate.poses.empty() ? 0.0 : estimate.poses.front().check.score;
-    std::cout << depth.string() << ": " << database.objects.front().mesh.name << " " << score << "\n";
+    std::cout << depth.string() << ": " << database.objects.front().mesh.name << " " << score
+              << "\n";
     return score;
   }
 
@@ -85,7 +92,8 @@ TEST_F(RealScansTest, ElbowsAreFoundInRealBins) {
 
 TEST_F(RealScansTest, PrismsAreFoundInAllPartScenes) {
   const ReferenceDatabase part = databaseOf("prism_parts/models/part.ply");
-  for (const std::string scene : {"scene062P", "test_seg_3pecas", "scene_multi_062", "Atest_pecasfinal"}) {
+  for (const std::string scene :
+       {"scene062P", "test_seg_3pecas", "scene_multi_062", "Atest_pecasfinal"}) {
     const std::string stem = "prism_parts/depth/" + scene;
     EXPECT_GE(bestScore(part, stem + ".png", stem + ".camera.json"), kReported) << scene;
   }

@@ -26,9 +26,15 @@ glm::dmat3 randomRotation(std::mt19937_64& random) {
   const double y = std::sqrt(1.0 - u) * std::cos(a);
   const double z = std::sqrt(u) * std::sin(b);
   const double w = std::sqrt(u) * std::cos(b);
-  return {1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y),
-          2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
-          2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)};
+  return {1 - 2 * (y * y + z * z),
+          2 * (x * y + w * z),
+          2 * (x * z - w * y),
+          2 * (x * y - w * z),
+          1 - 2 * (x * x + z * z),
+          2 * (y * z + w * x),
+          2 * (x * z + w * y),
+          2 * (y * z - w * x),
+          1 - 2 * (x * x + y * y)};
 }
 
 /// A ball: what hides a part here must not look like one, flat or round as they are.
@@ -51,8 +57,10 @@ Mesh ball(double radius_mm) {
   };
   for (int ring = 0; ring < kRings; ++ring) {
     for (int sector = 0; sector < kSectors; ++sector) {
-      mesh.triangles.emplace_back(vertex(ring, sector), vertex(ring + 1, sector), vertex(ring + 1, sector + 1));
-      mesh.triangles.emplace_back(vertex(ring, sector), vertex(ring + 1, sector + 1), vertex(ring, sector + 1));
+      mesh.triangles.emplace_back(
+          vertex(ring, sector), vertex(ring + 1, sector), vertex(ring + 1, sector + 1));
+      mesh.triangles.emplace_back(
+          vertex(ring, sector), vertex(ring + 1, sector + 1), vertex(ring, sector + 1));
     }
   }
   return cleaned(mesh);
@@ -81,8 +89,10 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
   PlacedPart part;
   part.mesh = 0;
   part.world_from_object.rotation = randomRotation(random);
-  const glm::dvec3 center(uniform(random, -40.0, 40.0), uniform(random, -30.0, 30.0), 1.3 * sphere.radius_mm);
-  part.world_from_object.translation_mm = center - part.world_from_object.rotation * sphere.center_mm;
+  const glm::dvec3 center(
+      uniform(random, -40.0, 40.0), uniform(random, -30.0, 30.0), 1.3 * sphere.radius_mm);
+  part.world_from_object.translation_mm =
+      center - part.world_from_object.rotation * sphere.center_mm;
   ScannerOptions options;
   options.noise = noise;
   options.seed = seed;
@@ -98,7 +108,8 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
     const double side = uniform(random, 0.0, 2.0 * std::numbers::pi);
     const double height = center.z + sphere.radius_mm + ball_mm + uniform(random, 0.0, 20.0);
     const glm::dvec3 eye = camera_from_world.inverse().translation_mm;
-    const glm::dvec3 on_sight = center + (eye - center) * ((height - center.z) / (eye.z - center.z));
+    const glm::dvec3 on_sight =
+        center + (eye - center) * ((height - center.z) / (eye.z - center.z));
     const double unhidden = measuredPixels(meshes, parts, camera_from_world, options);
     double near = 0.0;
     double far = 3.0 * sphere.radius_mm;

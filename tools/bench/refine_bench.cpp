@@ -47,8 +47,8 @@ void addFine(Fixture& fixture, const Path& path) {
     const Image<float> foreground = foregroundDepth(fixture);
     const ReferenceDatabase& database = fixture.database(kViews);
     const RefineScene scene{fixture.demo(), foreground, fixture.noiseMm()};
-    const std::vector<Candidate> coarse =
-        refineCoarsely(roughCandidates(fixture, scene), database, scene, EstimateOptions().verified);
+    const std::vector<Candidate> coarse = refineCoarsely(
+        roughCandidates(fixture, scene), database, scene, EstimateOptions().verified);
     for (auto _ : state) {
       std::vector<Candidate> candidates = coarse;
       refineFinely(candidates, database, scene, *path.stages);

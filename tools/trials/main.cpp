@@ -1,0 +1,228 @@
+// Trials with a known answer: one part of models/ in a random pose, rendered with sensor noise,
+// partly hidden if wanted. Prints how often the pose is right, as Markdown; with --ablation for one
+// changed option after the other.
+#include <fmt/core.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "geometry/orientation_grid.h"
+#include "io/mesh_file.h"
+#include "pipeline/estimate.h"
+#include "pipeline/scene_window.h"
+#include "stages/reference_host.h"
+#include "support/pose_trials.h"
+
+namespace rangepose {
+namespace {
+
+constexpr double kRightRough = 0.10;  // vertex error as a share of the diameter, as in the paper
+constexpr double kRightFine = 0.02;
+
+struct Part {
+  std::string name;
+  ReferenceDatabase database;
+  std::vector<Pose> symmetries;
+};
+
+struct TrialOptions {
+  std::string models = "models";
+  int views = 1024;
+  int trials = 25;
+  std::uint64_t seed = 3000;
+  int noise = 1;
+  double hidden = 0.0;
+};
+
+struct Result {
+  int trials = 0;
+  int rough = 0;
+  int fine = 0;
+  std::vector<double> errors;  ///< of the refined poses, shares of the diameter
+};
+
+std::vector<Part> loadParts(const TrialOptions& options) {
+  constexpr int kSize = 64;
+  std::vector<Part> parts;
+  for (const std::string name : {"t_pipe", "bolt", "elbow", "bracket"}) {
+    const Mesh mesh = readMesh(options.models + "/" + name + ".ply", LengthUnit::kMillimetre);
+    const ChannelOptions channels = channelOptionsFor(kSize);
+    Part part;
+    part.name = name;
+    part.database.objects.push_back(
+        describeObject(mesh, 1, kSize, uniformRotations(options.views), channels));
+    host::renderReferences(part.database.objects.front(), channels, {});
+    part.symmetries = test::symmetriesOf(name, mesh);
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
+/// Vertex error of the hypothesis with the lowest Eq. 1, as a share of the diameter.
+double roughError(const ObjectTrace& trace, const Part& part, const Pose& truth) {
+  const auto best =
+      std::min_element(trace.hypotheses.begin(),
+                       trace.hypotheses.end(),
+                       [](const Hypothesis& a, const Hypothesis& b) { return a.error < b.error; });
+  if (best == trace.hypotheses.end()) return std::numeric_limits<double>::infinity();
+  const ReferenceObject& object = part.database.objects.front();
+  const OrthoCamera& window = trace.windows[static_cast<std::size_t>(best->window)].camera;
+  return test::vertexError(object.mesh, part.symmetries, poseOf(*best, object, window), truth) /
+         object.diameter_mm;
+}
+
+Result runTrials(const Part& part,
+                 const TrialOptions& options,
+                 const EstimateOptions& estimate_options,
+                 StageSet& stages) {
+  Result result;
+  const ReferenceObject& object = part.database.objects.front();
+  for (int i = 0; i < options.trials; ++i) {
+    const test::PoseTrial trial = test::makePoseTrial(
+        object.mesh, options.seed + static_cast<std::uint64_t>(i), options.noise, options.hidden);
+    EstimateTrace trace;
+    const Estimate estimate =
+        estimatePoses(trial.image, std::nullopt, part.database, estimate_options, stages, &trace);
+    double error = std::numeric_limits<double>::infinity();
+    if (!estimate.poses.empty()) {
+      error =
+          test::vertexError(
+              object.mesh, part.symmetries, estimate.poses.front().pose, trial.camera_from_object) /
+          object.diameter_mm;
+    }
+    ++result.trials;
+    result.fine += error < kRightFine ? 1 : 0;
+    result.rough +=
+        roughError(trace.objects.front(), part, trial.camera_from_object) < kRightRough ? 1 : 0;
+    result.errors.push_back(error);
+  }
+  return result;
+}
+
+void add(Result& sum, const Result& more) {
+  sum.trials += more.trials;
+  sum.rough += more.rough;
+  sum.fine += more.fine;
+  sum.errors.insert(sum.errors.end(), more.errors.begin(), more.errors.end());
+}
+
+void printRow(const std::string& name, Result result) {
+  std::sort(result.errors.begin(), result.errors.end());
+  const double all = result.trials;
+  fmt::print("| {} | {} | {:.1f} | {:.1f} | {:.3f} | {:.3f} |\n",
+             name,
+             result.trials,
+             100.0 * result.rough / all,
+             100.0 * result.fine / all,
+             100.0 * result.errors[result.errors.size() / 2],
+             100.0 * result.errors[result.errors.size() * 9 / 10]);
+  std::fflush(stdout);
+}
+
+Result runAll(const std::vector<Part>& parts,
+              const TrialOptions& options,
+              const EstimateOptions& estimate_options,
+              StageSet& stages,
+              bool print_parts) {
+  Result sum;
+  for (const Part& part : parts) {
+    const Result result = runTrials(part, options, estimate_options, stages);
+    if (print_parts) printRow(part.name, result);
+    add(sum, result);
+  }
+  return sum;
+}
+
+using Change = std::function<void(EstimateOptions&)>;
+
+/// The options that the paper leaves open or that differ from it, each by itself.
+std::vector<std::pair<std::string, Change>> ablations() {
+  const auto error = [](auto member, auto value) {
+    return [member, value](EstimateOptions& o) { o.search.error.*member = value; };
+  };
+  const auto spread = [](float value) {
+    return [value](EstimateOptions& o) { o.search.simplex.spread = value; };
+  };
+  return {{"as released", [](EstimateOptions&) {}},
+          {"r_i as printed, A_i / A_max", error(&ErrorOptions::area, AreaFactor::kAsPrinted)},
+          {"r_i none", error(&ErrorOptions::area, AreaFactor::kNone)},
+          {"r_i sqrt(A_max / A_i)", error(&ErrorOptions::area, AreaFactor::kRoot)},
+          {"lambda 10", error(&ErrorOptions::lambda, 10.0f)},
+          {"lambda 40", error(&ErrorOptions::lambda, 40.0f)},
+          {"holes as printed", error(&ErrorOptions::holes, HolePolicy::kPaper)},
+          {"holes at the limit", error(&ErrorOptions::holes, HolePolicy::kLimit)},
+          {"range limit 4 px", error(&ErrorOptions::range_limit_px, 4.0f)},
+          {"range limit 16 px", error(&ErrorOptions::range_limit_px, 16.0f)},
+          {"range limit none", error(&ErrorOptions::range_limit_px, 1.0e9f)},
+          {"simplex spread 5 % (paper)", spread(0.05f)},
+          {"simplex spread 0.5 %", spread(0.005f)},
+          {"1 start", [](EstimateOptions& o) { o.starts = 1; }},
+          {"6 starts", [](EstimateOptions& o) { o.starts = 6; }}};
+}
+
+void run(const TrialOptions& options, bool ablation) {
+  const std::vector<Part> parts = loadParts(options);
+  const std::unique_ptr<StageSet> stages = makeHostStages();
+  EstimateOptions estimate_options;
+  estimate_options.min_score = 0.0;
+  fmt::print("{} views, seeds from {}, noise {}, {:.0f} % hidden\n\n",
+             options.views,
+             options.seed,
+             options.noise,
+             100.0 * options.hidden);
+  fmt::print(
+      "| {} | trials | rough < 10 % [%] | refined < 2 % [%] | median error [% of diameter] | 90th "
+      "percentile |\n",
+      ablation ? "changed" : "part");
+  fmt::print("|---|---|---|---|---|---|\n");
+  if (!ablation) {
+    printRow("all", runAll(parts, options, estimate_options, *stages, true));
+    return;
+  }
+  for (const auto& [name, change] : ablations()) {
+    EstimateOptions changed = estimate_options;
+    change(changed);
+    printRow(name, runAll(parts, options, changed, *stages, false));
+  }
+}
+
+}  // namespace
+}  // namespace rangepose
+
+int main(int argc, char** argv) {
+  CLI::App app{"Pose trials with a known answer on the parts of models/, as a Markdown table"};
+  rangepose::TrialOptions options;
+  bool ablation = false;
+  app.add_option("--models", options.models, "Folder of the parts")->capture_default_str();
+  app.add_option("--views", options.views, "Views of a part")
+      ->check(CLI::Range(1, 65536))
+      ->capture_default_str();
+  app.add_option("--trials", options.trials, "Trials a part")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  app.add_option("--seed", options.seed, "Of the first trial; the others follow")
+      ->capture_default_str();
+  app.add_option("--noise", options.noise, "Of the sensor: 0 none, 1, 2")
+      ->check(CLI::Range(0, 2))
+      ->capture_default_str();
+  app.add_option("--hidden", options.hidden, "Share of the part that is hidden")
+      ->check(CLI::Range(0.0, 0.9))
+      ->capture_default_str();
+  app.add_flag("--ablation", ablation, "One row for each changed option of the search");
+  app.footer("Example: rangepose_trials --trials 50 --seed 20000 --hidden 0.4");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    rangepose::run(options, ablation);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "rangepose_trials: {}\n", error.what());
+    return 1;
+  }
+  return 0;
+}
