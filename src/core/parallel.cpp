@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include "core/error.h"
+
 #ifdef RP_HAVE_TBB
 #include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
@@ -20,6 +22,7 @@ namespace rangepose {
 #ifdef RP_HAVE_TBB
 
 void parallelFor(int count, int grain, const std::function<void(int, int)>& body) {
+  RP_CHECK(grain >= 1, "parallelFor: grain must be at least 1");
   const int pieces = (count + grain - 1) / grain;
   tbb::parallel_for(tbb::blocked_range<int>(0, pieces, 1),
                     [&](const tbb::blocked_range<int>& range) {
@@ -45,6 +48,7 @@ std::atomic<int> thread_limit{0};
 }
 
 void parallelFor(int count, int grain, const std::function<void(int, int)>& body) {
+  RP_CHECK(grain >= 1, "parallelFor: grain must be at least 1");
   const int pieces = (count + grain - 1) / grain;
   const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const int limit = thread_limit > 0 ? thread_limit.load() : cores;

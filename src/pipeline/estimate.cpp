@@ -235,6 +235,7 @@ void EstimateOptions::check() const {
   RP_CHECK(kept_per_start >= 1, "kept_per_start must be at least 1");
   RP_CHECK(verified >= 1, "verified must be at least 1");
   RP_CHECK(max_poses >= 1, "max_poses must be at least 1");
+  RP_CHECK(min_score >= 0.0 && min_score <= 1.0, "min_score must lie in 0..1");
   search.simplex.check();
   search.error.check();
 }

@@ -21,7 +21,7 @@ struct ResampleSetup {
 
 struct Splat {
   int x, y;     ///< first pixel covered
-  int count;    ///< pixels covered along each side
+  int count;    ///< pixels covered along each side; 0 when far outside of any image
   float range;  ///< [px]
 };
 
@@ -36,6 +36,11 @@ RP_HD Splat splatOf(const ResampleSetup& s, int u, int v, float depth_mm) {
       s.rotation[3] * x + s.rotation[4] * y + s.rotation[5] * depth_mm + s.translation[1];
   const float pz =
       s.rotation[6] * x + s.rotation[7] * y + s.rotation[8] * depth_mm + s.translation[2];
+  // No image is that wide; past it the conversions below would overflow. Written so that a NaN
+  // fails too.
+  constexpr float kFarthestPx = 1.0e6f;
+  const bool near = px > -kFarthestPx && px < kFarthestPx && py > -kFarthestPx && py < kFarthestPx;
+  if (!near) return {0, 0, 0, pz};
   const float width = s.footprint_per_mm * reach;
   int count =
       static_cast<int>(width) + (width > static_cast<float>(static_cast<int>(width)) ? 1 : 0);
