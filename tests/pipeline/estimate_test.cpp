@@ -147,7 +147,7 @@ TEST(EstimateTest, BareTableGivesNoPose) { EXPECT_THAT(estimated(tableImage()).p
 
 TEST(EstimateTest, PosesBelowTheLowestScoreAreNotReported) {
   EstimateOptions options;
-  options.min_score = 1.01;
+  options.min_score = 1.0;
   EXPECT_THAT(estimated(partOnTable(partAt({0.0, 0.0, 480.0})), options).poses, IsEmpty());
 }
 
