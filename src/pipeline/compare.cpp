@@ -1,11 +1,15 @@
 #include "pipeline/compare.h"
 
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <sstream>
 
+#include "geometry/orientation_grid.h"
 #include "pipeline/compare_isolated.h"
 #include "pipeline/compare_search.h"
 #include "pipeline/compare_tally.h"
+#include "stages/reference_host.h"
 
 namespace rangepose {
 namespace {
@@ -30,6 +34,37 @@ double vertexDistance(const Mesh& mesh, const Pose& a, const Pose& b) {
     sum += glm::distance(a * glm::dvec3(vertex), b * glm::dvec3(vertex));
   }
   return mesh.vertices.empty() ? 0.0 : sum / static_cast<double>(mesh.vertices.size());
+}
+
+/// Mean distance along the viewing direction between the surfaces of an object at two poses [mm],
+/// seen from several sides; infinite where the outlines differ by more than a few pixels. Of a
+/// symmetric part several poses lay the same surface, and which one wins may hang on the last bit
+/// of a score.
+double surfaceDistance(const ReferenceObject& object, const Pose& a, const Pose& b) {
+  constexpr int kSides = 6;
+  constexpr double kMaxOutlineShare = 0.03;
+  const Camera camera = tileCamera(object);
+  const SurfaceWindow window{0, 0, object.size, object.size, 1};
+  const Pose a_from_b = a.inverse() * b;
+  double sum = 0.0;
+  int both = 0;
+  int one = 0;
+  for (const glm::dmat3& side : uniformRotations(kSides)) {
+    const Pose pose = tilePose(object, side);
+    const Image<SurfaceTexel> first = host::renderSurface(object.mesh, camera, pose, window);
+    const Image<SurfaceTexel> second =
+        host::renderSurface(object.mesh, camera, pose * a_from_b, window);
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      const float depth_a = first.data()[i].w;
+      const float depth_b = second.data()[i].w;
+      if (depth_a == 0.0f && depth_b == 0.0f) continue;
+      const bool seen_by_both = depth_a != 0.0f && depth_b != 0.0f;
+      (seen_by_both ? both : one) += 1;
+      if (seen_by_both) sum += static_cast<double>(std::abs(depth_a - depth_b));
+    }
+  }
+  if (both == 0 || one > kMaxOutlineShare * both) return std::numeric_limits<double>::infinity();
+  return sum / both;
 }
 
 double degreesBetween(const Pose& a, const Pose& b) {
@@ -108,13 +143,25 @@ class Chained {
     for (std::size_t i = 0; i < std::min(expected.size(), actual.size()); ++i) {
       const PoseEstimate& a = expected[i];
       const PoseEstimate& b = actual[i];
-      const Mesh& mesh = database_.objects[static_cast<std::size_t>(a.object)].mesh;
-      const bool same = a.object == b.object;
-      position_.add(same ? vertexDistance(mesh, a.pose, b.pose) : kIncomparable);
-      rotation_.add(same ? degreesBetween(a.pose, b.pose) : kIncomparable);
+      addPoses(database_.objects[static_cast<std::size_t>(a.object)], a, b);
       score_.add(std::abs(a.check.score - b.check.score));
     }
     position_.addMissing(surplus(expected.size(), actual.size()));
+  }
+
+  void addPoses(const ReferenceObject& object, const PoseEstimate& a, const PoseEstimate& b) {
+    if (a.object != b.object) {
+      position_.add(kIncomparable);
+      rotation_.add(kIncomparable);
+      return;
+    }
+    const double vertices_mm = vertexDistance(object.mesh, a.pose, b.pose);
+    const double surfaces_mm = surfaceDistance(object, a.pose, b.pose);
+    const bool symmetric =
+        vertices_mm > 0.1 * object.diameter_mm && surfaces_mm < 0.01 * object.diameter_mm;
+    position_.add(symmetric ? surfaces_mm : vertices_mm);
+    // What a symmetry turns is no difference; a turn on top of it shows in the surfaces.
+    rotation_.add(symmetric ? 0.0 : degreesBetween(a.pose, b.pose));
   }
 
   const ReferenceDatabase& database_;

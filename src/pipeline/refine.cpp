@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kFinePoints = 900;
 constexpr int kRenderPx = 112;
-constexpr int kFineRounds = 2;
+constexpr int kFineRounds = 3;
 
 /// Mean distance of the object's extreme points in two poses, as a share of its diameter.
 double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
