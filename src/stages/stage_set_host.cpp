@@ -92,6 +92,7 @@ class HostStages : public StageSet {
                                  const std::vector<float>& seed_range_px,
                                  const SearchOptions& options) override {
     std::vector<const SceneChannels*> channels;
+    channels.reserve(windows.size());
     for (const ResidentScene* window : windows) {
       channels.push_back(&static_cast<const HostScene*>(window)->channels());
     }

@@ -196,7 +196,7 @@ void run(const TrialOptions& options, bool ablation) {
 }  // namespace
 }  // namespace rangepose
 
-int main(int argc, char** argv) {
+int main(int argc, char** argv) try {
   CLI::App app{"Pose trials with a known answer on the parts of models/, as a Markdown table"};
   rangepose::TrialOptions options;
   bool ablation = false;
@@ -218,11 +218,9 @@ int main(int argc, char** argv) {
   app.add_flag("--ablation", ablation, "One row for each changed option of the search");
   app.footer("Example: rangepose_trials --trials 50 --seed 20000 --hidden 0.4");
   CLI11_PARSE(app, argc, argv);
-  try {
-    rangepose::run(options, ablation);
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "rangepose_trials: {}\n", error.what());
-    return 1;
-  }
+  rangepose::run(options, ablation);
   return 0;
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "rangepose_trials: %s\n", error.what());
+  return 1;
 }
