@@ -24,6 +24,19 @@ glm::dmat3 rotationFromVector(const glm::dvec3& vector) {
   return glm::dmat3(1.0) + first * cross + second * (cross * cross);
 }
 
+glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w) {
+  // Columns of the usual matrix of a unit quaternion.
+  return {1 - 2 * (y * y + z * z),
+          2 * (x * y + w * z),
+          2 * (x * z - w * y),
+          2 * (x * y - w * z),
+          1 - 2 * (x * x + z * z),
+          2 * (y * z + w * x),
+          2 * (x * z + w * y),
+          2 * (y * z - w * x),
+          1 - 2 * (x * x + y * y)};
+}
+
 glm::dmat3 orthonormalized(const glm::dmat3& rotation) {
   const glm::dvec3 x = glm::normalize(rotation[0]);
   const glm::dvec3 y = glm::normalize(rotation[1] - glm::dot(rotation[1], x) * x);

@@ -26,6 +26,9 @@ double rotationAngleBetween(const glm::dmat3& a, const glm::dmat3& b);
 /// The rotation about the unit axis `vector / |vector|` by |vector| [rad] (Rodrigues).
 glm::dmat3 rotationFromVector(const glm::dvec3& vector);
 
+/// The rotation of a unit quaternion w + xi + yj + zk.
+glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w);
+
 /// The nearest rotation to a matrix that has drifted (Gram-Schmidt on its columns).
 glm::dmat3 orthonormalized(const glm::dmat3& rotation);
 

@@ -4,24 +4,9 @@
 #include <numbers>
 
 #include "core/error.h"
+#include "core/pose.h"
 
 namespace rangepose {
-namespace {
-
-glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w) {
-  // Columns of the usual matrix of a unit quaternion.
-  return {1 - 2 * (y * y + z * z),
-          2 * (x * y + w * z),
-          2 * (x * z - w * y),
-          2 * (x * y - w * z),
-          1 - 2 * (x * x + z * z),
-          2 * (y * z + w * x),
-          2 * (x * z + w * y),
-          2 * (y * z - w * x),
-          1 - 2 * (x * x + y * y)};
-}
-
-}  // namespace
 
 std::vector<glm::dmat3> uniformRotations(int count) {
   RP_CHECK(count >= 1, "at least one rotation is needed");

@@ -65,8 +65,8 @@ class Estimator {
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
-      const std::vector<Seed> seeds = findStarts(object, foreground, object_trace);
-      const Windows windows = cutWindows(object, foreground, seeds, object_trace);
+      const std::vector<glm::dvec3> starts = findStarts(object, foreground, object_trace);
+      const Windows windows = cutWindows(object, foreground, starts, object_trace);
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
@@ -88,9 +88,10 @@ class Estimator {
   }
 
  private:
-  std::vector<Seed> findStarts(const ReferenceObject& object,
-                               const Image<std::uint8_t>& foreground,
-                               ObjectTrace* trace) {
+  /// The start points, in the camera frame [mm].
+  std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
+                                     const Image<std::uint8_t>& foreground,
+                                     ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
     const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
     if (camera.width == 0) return {};
@@ -101,7 +102,7 @@ class Estimator {
         stages_.prepare(depth_, foreground, camera, {}, channel_options);
     const SceneChannels channels = scene->download();
     const Image<std::int32_t> labels = stages_.patches(*scene);
-    std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
+    const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
     if (trace != nullptr) {
       trace->raw_range_px = stages_.resample(depth_, foreground, camera);
       trace->scene = channels;
@@ -109,21 +110,16 @@ class Estimator {
       trace->seeds = seeds;
       trace->scene_options = channel_options;
     }
-    for (Seed& seed : seeds) {
-      // From here on a seed is a point of the camera frame.
-      const glm::dvec3 point =
-          camera.camera_from_ortho * camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px);
-      seed.x_px = static_cast<float>(point.x);
-      seed.y_px = static_cast<float>(point.y);
-      seed.range_px = static_cast<float>(point.z);
+    std::vector<glm::dvec3> points;
+    for (const Seed& seed : seeds) {
+      points.push_back(camera.camera_from_ortho *
+                       camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px));
     }
-    return seeds;
+    return points;
   }
 
   SeedOptions seedOptions(const ReferenceObject& object, const OrthoCamera& camera) const {
-    double area = 0.0;
-    for (const ReferenceView& view : object.views) area += view.area_px;
-    area /= static_cast<double>(object.views.size());
+    const double area = object.meanArea();
     const double scale = object.pixel_mm / camera.pixel_mm;
     SeedOptions seed_options;
     seed_options.count = options_.starts;
@@ -136,13 +132,12 @@ class Estimator {
 
   Windows cutWindows(const ReferenceObject& object,
                      const Image<std::uint8_t>& foreground,
-                     const std::vector<Seed>& seeds,
+                     const std::vector<glm::dvec3>& starts,
                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "windows");
     Windows windows;
     const int width = kWindowScale * object.size;
-    for (const Seed& seed : seeds) {
-      const glm::dvec3 point(seed.x_px, seed.y_px, seed.range_px);
+    for (const glm::dvec3& point : starts) {
       const OrthoCamera camera = windowCamera(depth_.camera, point, width, object.pixel_mm);
       const PixelBox region = windowRegion(depth_.camera, point, width, object.pixel_mm);
       windows.scenes.push_back(

@@ -19,8 +19,9 @@ namespace rangepose {
 struct EstimateOptions {
   int starts = 3;  ///< start points (N_init, paper Sect. 6.1)
   int kept_per_start =
-      512;           ///< hypotheses of a start that are aligned with their view's own points
-  int verified = 8;  ///< refined hypotheses of a start that are rendered, refined again and checked
+      512;  ///< hypotheses of a start that are aligned with their view's own points
+  int verified =
+      16;  ///< refined hypotheses of a start that are rendered, refined again and checked
   double min_score = 0.5;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;

@@ -13,7 +13,10 @@ namespace {
 
 constexpr int kFinePoints = 900;
 constexpr int kRenderPx = 112;
-constexpr int kFineRounds = 3;
+constexpr int kFineIterations = 12;
+constexpr double kLaterReach = 1.5;  // tolerances
+/// A pose that moves by less has come to rest [share of the diameter].
+constexpr double kStill = 1e-4;
 
 /// Mean distance of the object's extreme points in two poses, as a share of its diameter.
 double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
@@ -42,17 +45,25 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
 
 /// Of two poses that fit equally well the one that explains more of the scene is the better
 /// explanation: a part's face alone can be laid on many surfaces.
-double rankOf(const CheckResult& check, const ReferenceObject& object) {
-  double mean_area_px = 0.0;
-  for (const ReferenceView& view : object.views) mean_area_px += static_cast<double>(view.area_px);
-  mean_area_px /= static_cast<double>(object.views.size());
-  const double mean_mm2 = mean_area_px * object.pixel_mm * object.pixel_mm;
-  return check.score * std::sqrt(check.explained_mm2 / mean_mm2);
+double rankOf(const CheckResult& check, double mean_visible_mm2) {
+  return check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
+/// Mean area of the object's views [mm^2].
+double meanVisibleArea(const ReferenceObject& object) {
+  return object.meanArea() * object.pixel_mm * object.pixel_mm;
+}
+
+struct FineRounds {
+  int rounds;          ///< at most
+  double first_reach;  ///< of the first round [tolerances]
+};
+
+/// Renders, aligns what is visible, and again until the pose is at rest; then checks.
 void refineOne(Candidate& candidate,
                const ReferenceObject& object,
                const RefineScene& scene,
+               const FineRounds& fine,
                StageSet& stages) {
   const Camera& camera = scene.depth.camera;
   const double tolerance = toleranceFor(object, scene.noise_mm);
@@ -62,11 +73,13 @@ void refineOne(Candidate& candidate,
     return stages.renderSurface(object.mesh, camera, candidate.pose, window);
   };
   SurfaceWindow window;
-  for (int round = 0; round < kFineRounds; ++round) {
+  for (int round = 0; round < fine.rounds; ++round) {
     const Image<SurfaceTexel> surface = render(window);
     const std::vector<SurfacePoint> points =
         pointsOfSurface(surface, camera, window, candidate.pose, kFinePoints);
-    const IcpOptions options = icpOptions((round == 0 ? 3.0 : 1.5) * tolerance, tolerance, 6);
+    const double reach = round == 0 ? fine.first_reach : kLaterReach;
+    const IcpOptions options = icpOptions(reach * tolerance, tolerance, kFineIterations);
+    const Pose before = candidate.pose;
     candidate.pose = host::icp(points,
                                camera,
                                scene.foreground_mm,
@@ -75,11 +88,12 @@ void refineOne(Candidate& candidate,
                                object.radius_mm,
                                options)
                          .camera_from_object;
+    if (distanceBetween(object, before, candidate.pose) < kStill) break;
   }
   const Image<SurfaceTexel> surface = render(window);
   candidate.check =
       host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
-  candidate.rank = rankOf(candidate.check, object);
+  candidate.rank = rankOf(candidate.check, meanVisibleArea(object));
 }
 
 }  // namespace
@@ -90,29 +104,40 @@ double toleranceFor(const ReferenceObject& object, double noise_mm) {
 
 namespace {
 
+using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
+
+ViewPoints fewPointsOfViews(const ReferenceObject& object) {
+  constexpr int kPoints = 40;
+  constexpr int kViewsPerPiece = 64;
+  ViewPoints points(object.views.size());
+  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
+    for (int view = begin; view < end; ++view)
+      points[static_cast<std::size_t>(view)] = pointsOfView(object, view, kPoints);
+  });
+  return points;
+}
+
 /// Judges rough poses by a few points of their views against the depth image, with a tolerance as
 /// wide as a rough pose is wrong. Unlike Eq. 1 it sees the difference between surface that is
 /// hidden and surface that is not there, which decides on parts that are partly covered.
 void judgeRoughly(std::vector<Candidate>& candidates,
                   const ReferenceObject& object,
+                  const ViewPoints& points,
                   const RefineScene& scene) {
-  constexpr int kPoints = 40;
   constexpr int kCandidatesPerPiece = 64;
   CheckOptions options;
   options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * scene.noise_mm);
   options.max_tilt_rad = 1.2;
+  const double pixel_mm2 = object.pixel_mm * object.pixel_mm;
+  const double mean_mm2 = meanVisibleArea(object);
   parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
-      const double visible_mm2 =
-          static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
-      candidate.check = host::checkPoints(pointsOfView(object, candidate.view, kPoints),
-                                          candidate.pose,
-                                          visible_mm2,
-                                          scene.depth,
-                                          options);
-      candidate.rank = rankOf(candidate.check, object);
+      const auto view = static_cast<std::size_t>(candidate.view);
+      const double visible_mm2 = static_cast<double>(object.views[view].area_px) * pixel_mm2;
+      candidate.check =
+          host::checkPoints(points[view], candidate.pose, visible_mm2, scene.depth, options);
+      candidate.rank = rankOf(candidate.check, mean_mm2);
     }
   });
 }
@@ -156,6 +181,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       const std::vector<OrthoCamera>& cameras,
                                       const RefineScene& scene,
                                       int count) {
+  const ViewPoints points = fewPointsOfViews(object);
   std::vector<Candidate> best;
   for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
     std::vector<Candidate> own;
@@ -164,7 +190,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
       const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
       own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
     }
-    judgeRoughly(own, object, scene);
+    judgeRoughly(own, object, points, scene);
     const Order by_error = ordered(
         own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
     const Order by_rank =
@@ -191,6 +217,9 @@ void alignWithViews(std::vector<Candidate>& candidates,
                     const RefineScene& scene,
                     const CoarseRound& round) {
   constexpr int kCandidatesPerPiece = 4;
+  std::vector<double> mean_mm2;
+  for (const ReferenceObject& object : database.objects)
+    mean_mm2.push_back(meanVisibleArea(object));
   parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       Candidate& candidate = candidates[static_cast<std::size_t>(i)];
@@ -217,7 +246,8 @@ void alignWithViews(std::vector<Candidate>& candidates,
                                           visible_mm2,
                                           scene.depth,
                                           checkOptionsFor(object, scene.noise_mm));
-      candidate.rank = rankOf(candidate.check, object);
+      candidate.rank =
+          rankOf(candidate.check, mean_mm2[static_cast<std::size_t>(candidate.object)]);
     }
   });
 }
@@ -289,15 +319,25 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
                   StageSet& stages) {
-  const int count = static_cast<int>(candidates.size());
-  const int grain = stages.concurrent() ? 1 : std::max(count, 1);
-  parallelFor(count, grain, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-      refineOne(
-          candidate, database.objects[static_cast<std::size_t>(candidate.object)], scene, stages);
-    }
-  });
+  // A short alignment of all tells which few are worth a long one.
+  constexpr FineRounds kAll{2, 6.0};
+  constexpr FineRounds kFinalists{8, 3.0};
+  constexpr int kFinalistsPerStart = 3;
+  const auto refineAll = [&](std::vector<Candidate>& all, const FineRounds& fine) {
+    const int count = static_cast<int>(all.size());
+    const int grain = stages.concurrent() ? 1 : std::max(count, 1);
+    parallelFor(count, grain, [&](int begin, int end) {
+      for (int i = begin; i < end; ++i) {
+        Candidate& candidate = all[static_cast<std::size_t>(i)];
+        const ReferenceObject& object =
+            database.objects[static_cast<std::size_t>(candidate.object)];
+        refineOne(candidate, object, scene, fine, stages);
+      }
+    });
+  };
+  refineAll(candidates, kAll);
+  candidates = bestDistinct(std::move(candidates), database, kFinalistsPerStart);
+  refineAll(candidates, kFinalists);
 }
 
 }  // namespace rangepose

@@ -56,8 +56,8 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
 std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
                                        const ReferenceDatabase& database);
 
-/// Renders each candidate at the sensor's resolution, aligns the visible part, and checks the
-/// result.
+/// Renders the candidates at the sensor's resolution, aligns the visible part, and checks the
+/// result; keeps the few best of each start and aligns those until they rest.
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,

@@ -105,6 +105,45 @@ void addSeeds(const Patch& patch, const SeedOptions& options, std::vector<Ranked
   }
 }
 
+bool isApart(const std::vector<Seed>& seeds, const Seed& seed, float apart_px) {
+  return std::none_of(seeds.begin(), seeds.end(), [&](const Seed& other) {
+    const float dx = other.x_px - seed.x_px;
+    const float dy = other.y_px - seed.y_px;
+    return dx * dx + dy * dy < apart_px * apart_px;
+  });
+}
+
+/// The first starts of all patches, nearest first. Then further starts of patches too large for one
+/// part and small patches in turn, the largest first: of a part that is mostly hidden there is
+/// nothing else, and what hides it may be large.
+std::vector<Seed> inTurn(std::vector<RankedSeed>& all, const SeedOptions& options) {
+  const auto first_small = std::stable_partition(
+      all.begin(), all.end(), [](const RankedSeed& ranked) { return !ranked.small; });
+  std::stable_sort(all.begin(), first_small, [](const RankedSeed& a, const RankedSeed& b) {
+    return std::pair(a.round, a.seed.mean_range_px) < std::pair(b.round, b.seed.mean_range_px);
+  });
+  std::stable_sort(first_small, all.end(), [](const RankedSeed& a, const RankedSeed& b) {
+    return a.seed.patch_px > b.seed.patch_px;
+  });
+  std::vector<Seed> seeds;
+  auto large = all.begin();
+  auto small = first_small;
+  bool turn_of_small = false;
+  while (static_cast<int>(seeds.size()) < options.count) {
+    while (small != all.end() && !isApart(seeds, small->seed, options.apart_px)) ++small;
+    if (large == first_small && small == all.end()) break;
+    const bool take_large = large != first_small && (large->round == 0 || !turn_of_small);
+    if (take_large || small == all.end()) {
+      turn_of_small = large->round > 0;
+      seeds.push_back((large++)->seed);
+    } else {
+      turn_of_small = false;
+      seeds.push_back((small++)->seed);
+    }
+  }
+  return seeds;
+}
+
 }  // namespace
 
 std::vector<Seed> findSeeds(const SceneChannels& scene,
@@ -116,19 +155,7 @@ std::vector<Seed> findSeeds(const SceneChannels& scene,
     candidate.small = candidate.seed.patch_px < options.min_patch_px ||
                       candidate.seed.distance_px < options.min_distance_px;
   }
-  // Small patches come last, the largest first: of a part that is mostly hidden there is nothing
-  // else.
-  std::stable_sort(all.begin(), all.end(), [](const RankedSeed& a, const RankedSeed& b) {
-    if (a.small != b.small) return b.small;
-    if (a.small) return a.seed.patch_px > b.seed.patch_px;
-    return std::pair(a.round, a.seed.mean_range_px) < std::pair(b.round, b.seed.mean_range_px);
-  });
-  std::vector<Seed> seeds;
-  for (const RankedSeed& candidate : all) {
-    if (static_cast<int>(seeds.size()) >= options.count) break;
-    seeds.push_back(candidate.seed);
-  }
-  return seeds;
+  return inTurn(all, options);
 }
 
 }  // namespace rangepose

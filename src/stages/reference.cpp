@@ -4,6 +4,12 @@
 
 namespace rangepose {
 
+double ReferenceObject::meanArea() const {
+  double sum = 0.0;
+  for (const ReferenceView& view : views) sum += static_cast<double>(view.area_px);
+  return views.empty() ? 0.0 : sum / static_cast<double>(views.size());
+}
+
 float ReferenceObject::maxArea() const {
   float area = 0.0f;
   for (const ReferenceView& view : views) area = std::max(area, view.area_px);

@@ -49,7 +49,8 @@ struct ReferenceObject {
     const int per_row = columns() > 0 ? columns() : 1;
     return {index % per_row * size, index / per_row * size};
   }
-  float maxArea() const;
+  float maxArea() const;    ///< of the views [px^2]
+  double meanArea() const;  ///< of the views [px^2]
 };
 
 /// Number of tile columns of an atlas of `views` tiles: the smallest square that holds them.

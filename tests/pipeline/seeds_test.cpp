@@ -171,11 +171,28 @@ TEST(SeedsTest, SmallPatchesOnlyWhenLargerOnesAreTooFew) {
   ASSERT_EQ(two.size(), 2u);
   EXPECT_EQ(two[0].range_px, 300.0f);
   EXPECT_EQ(two[1].range_px, 310.0f);
-  const std::vector<Seed> all = scene.seeds(wanting(9));
+  SeedOptions options = wanting(9);
+  options.apart_px = 5.0f;
+  const std::vector<Seed> all = scene.seeds(options);
   ASSERT_EQ(all.size(), 5u);
   EXPECT_EQ(all[2].patch_px, 120);
   EXPECT_EQ(all[3].patch_px, 16);
   EXPECT_EQ(all[4].patch_px, 12);
+}
+
+/// Otherwise something large in front takes all starts, and the part behind it gets none.
+TEST(SeedsTest, SmallPatchAndMoreOfALargeOneTakeTurns) {
+  const Scene scene = Scene(200, 60)
+                          .patch({0, 0, 110, 40}, 100.0f, 20.0f)
+                          .patch({160, 20, 165, 25}, 300.0f, 99.0f)  // far from all starts
+                          .patch({60, 42, 65, 47}, 300.0f, 99.0f);   // beside one
+  SeedOptions options = wanting(3);
+  options.max_patch_px = 2000;
+  const std::vector<Seed> seeds = scene.seeds(options);
+  ASSERT_EQ(seeds.size(), 3u);
+  EXPECT_EQ(seeds[0].range_px, 100.0f);
+  EXPECT_EQ(seeds[1].range_px, 100.0f);
+  EXPECT_EQ(seeds[2].x_px, 162.0f);
 }
 
 TEST(SeedsTest, CountIsRespected) {

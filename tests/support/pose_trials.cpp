@@ -22,19 +22,10 @@ glm::dmat3 randomRotation(std::mt19937_64& random) {
   const double u = uniform(random, 0.0, 1.0);
   const double a = uniform(random, 0.0, 2.0 * std::numbers::pi);
   const double b = uniform(random, 0.0, 2.0 * std::numbers::pi);
-  const double x = std::sqrt(1.0 - u) * std::sin(a);
-  const double y = std::sqrt(1.0 - u) * std::cos(a);
-  const double z = std::sqrt(u) * std::sin(b);
-  const double w = std::sqrt(u) * std::cos(b);
-  return {1 - 2 * (y * y + z * z),
-          2 * (x * y + w * z),
-          2 * (x * z - w * y),
-          2 * (x * y - w * z),
-          1 - 2 * (x * x + z * z),
-          2 * (y * z + w * x),
-          2 * (x * z + w * y),
-          2 * (y * z - w * x),
-          1 - 2 * (x * x + y * y)};
+  return rotationFromQuaternion(std::sqrt(1.0 - u) * std::sin(a),
+                                std::sqrt(1.0 - u) * std::cos(a),
+                                std::sqrt(u) * std::sin(b),
+                                std::sqrt(u) * std::cos(b));
 }
 
 /// A ball: what hides a part here must not look like one, flat or round as they are.
