@@ -1,35 +1,15 @@
-// Layout: magic "RPDB", version, checksum of the payload, payload size, payload.
-#include <array>
 #include <cmath>
 #include <fstream>
 
-#include "database/byte_stream.h"
+#include "core/byte_stream.h"
 #include "database/reference_database.h"
 
 namespace rangepose {
 namespace {
 
-constexpr std::array<char, 4> kMagic = {'R', 'P', 'D', 'B'};
-constexpr std::uint32_t kVersion = 1;
+constexpr FileKind kDatabase = {{'R', 'P', 'D', 'B'}, 2, "database", "build the database again"};
+constexpr std::size_t kMaxSymmetries = 1000;
 constexpr int kMaxViews = 65536;
-
-/// FNV-1a over words of eight bytes: each step is one to one, so a single damaged word always
-/// shows.
-std::uint64_t checksum(const char* data, std::size_t size) {
-  std::uint64_t hash = 0xcbf29ce484222325ULL;
-  const auto mix = [&hash](std::uint64_t word) {
-    hash = (hash ^ word) * 0x100000001b3ULL;
-    hash ^= hash >> 32;
-  };
-  std::size_t i = 0;
-  for (; i + 8 <= size; i += 8) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, data + i, 8);
-    mix(word);
-  }
-  for (; i < size; ++i) mix(static_cast<unsigned char>(data[i]));
-  return hash;
-}
 
 void writeMesh(ByteWriter& out, const Mesh& mesh) {
   out.text(mesh.name);
@@ -50,9 +30,40 @@ Mesh readMesh(ByteReader& in) {
   return mesh;
 }
 
+void writeSymmetries(ByteWriter& out, const Symmetries& symmetries) {
+  out.value(static_cast<std::uint64_t>(symmetries.discrete.size()));
+  out.array(symmetries.discrete.data(), symmetries.discrete.size());
+  out.value(static_cast<std::uint64_t>(symmetries.continuous.size()));
+  out.array(symmetries.continuous.data(), symmetries.continuous.size());
+}
+
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+Symmetries readSymmetries(ByteReader& in) {
+  Symmetries symmetries;
+  symmetries.discrete.resize(in.count(sizeof(Pose)));
+  in.array(symmetries.discrete.data(), symmetries.discrete.size());
+  symmetries.continuous.resize(in.count(sizeof(SymmetryAxis)));
+  in.array(symmetries.continuous.data(), symmetries.continuous.size());
+  bool sound = symmetries.discrete.size() <= kMaxSymmetries &&
+               symmetries.continuous.size() <= kMaxSymmetries;
+  for (const Pose& pose : symmetries.discrete) {
+    sound = sound && finite(pose.rotation[0]) && finite(pose.rotation[1]) &&
+            finite(pose.rotation[2]) && finite(pose.translation_mm);
+  }
+  for (const SymmetryAxis& axis : symmetries.continuous) {
+    sound = sound && finite(axis.direction) && finite(axis.point_mm);
+  }
+  if (!sound) in.fail("impossible symmetries");
+  return symmetries;
+}
+
 void writeObject(ByteWriter& out, const ReferenceObject& object) {
   out.value(static_cast<std::int32_t>(object.id));
   writeMesh(out, object.mesh);
+  writeSymmetries(out, object.symmetries);
   out.value(object.center_mm);
   out.value(object.radius_mm);
   out.value(object.diameter_mm);
@@ -80,6 +91,7 @@ ReferenceObject readObject(ByteReader& in) {
   ReferenceObject object;
   object.id = in.value<std::int32_t>();
   object.mesh = readMesh(in);
+  object.symmetries = readSymmetries(in);
   object.center_mm = in.value<glm::dvec3>();
   object.radius_mm = in.value<double>();
   object.diameter_mm = in.value<double>();
@@ -123,35 +135,11 @@ std::vector<char> serialize(const ReferenceDatabase& database) {
   ByteWriter payload;
   payload.value(static_cast<std::uint64_t>(database.objects.size()));
   for (const ReferenceObject& object : database.objects) writeObject(payload, object);
-  const std::vector<char> body = payload.take();
-  ByteWriter file;
-  file.array(kMagic.data(), kMagic.size());
-  file.value(kVersion);
-  file.value(checksum(body.data(), body.size()));
-  file.value(static_cast<std::uint64_t>(body.size()));
-  file.array(body.data(), body.size());
-  return file.take();
+  return framed(kDatabase, payload.take());
 }
 
 ReferenceDatabase deserialize(const std::vector<char>& bytes, const std::string& where) {
-  ByteReader header(bytes.data(), bytes.size(), where);
-  if (bytes.size() < kMagic.size() ||
-      std::memcmp(bytes.data(), kMagic.data(), kMagic.size()) != 0) {
-    throw Error(where + ": not a rangepose database; make one with `rangepose build`");
-  }
-  header.value<std::array<char, 4>>();
-  const std::uint32_t version = header.value<std::uint32_t>();
-  if (version != kVersion) {
-    header.fail("database version " + std::to_string(version) + ", this program reads version " +
-                std::to_string(kVersion));
-  }
-  const std::uint64_t expected = header.value<std::uint64_t>();
-  const std::uint64_t size = header.value<std::uint64_t>();
-  if (size > header.left()) header.fail("truncated database");
-  if (size < header.left()) header.fail("bytes after the end of the database");
-  const char* body = bytes.data() + (bytes.size() - header.left());
-  if (checksum(body, header.left()) != expected) header.fail("damaged database (checksum)");
-  ByteReader in(body, header.left(), where);
+  ByteReader in = payloadOf(kDatabase, bytes, where);
   ReferenceDatabase database;
   database.objects.resize(in.count(sizeof(ReferenceView)));
   if (database.objects.empty()) in.fail("database without objects");

@@ -243,6 +243,7 @@ void renderReferences(Context& context,
   const int texels_per_row = columns * object.size * object.size;
   const int rows_per_batch = std::clamp(kTexelsPerBatch / texels_per_row, 1, rows);
   object.edt_passes = options.edt_passes;
+  object.serial = newReferenceSerial();
   object.atlas = Image<ReferenceTexel>(columns * object.size, rows * object.size);
   BatchRenderer renderer(context, object, options, columns, rows_per_batch);
   for (int row = 0; row < rows; row += rows_per_batch) {

@@ -128,7 +128,7 @@ std::vector<Hypothesis> answers(const Texture& state) {
 }  // namespace
 
 ResidentObject::ResidentObject(const ReferenceObject& object)
-    : source_((checkObject(object), object.atlas.data())),
+    : serial_((checkObject(object), object.serial)),
       views_(static_cast<int>(object.views.size())),
       size_(object.size),
       columns_(object.columns()),
@@ -139,10 +139,7 @@ ResidentObject::ResidentObject(const ReferenceObject& object)
   box_vertices_.add(boxes_, {0, 4, true, sizeof(PixelBox), 0, true});
 }
 
-bool ResidentObject::isOf(const ReferenceObject& object) const {
-  return source_ == object.atlas.data() && views_ == static_cast<int>(object.views.size()) &&
-         size_ == object.size && atlas_.width() == object.atlas.width();
-}
+bool ResidentObject::isOf(const ReferenceObject& object) const { return serial_ == object.serial; }
 
 std::vector<ErrorTerms> errorTerms(Device& device,
                                    const ResidentObject& object,

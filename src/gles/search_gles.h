@@ -26,7 +26,7 @@ class ResidentObject {
   const std::vector<Canvas>& levels() const { return levels_; }
 
  private:
-  const ReferenceTexel* source_;  ///< to be compared only
+  std::uint64_t serial_;  ///< ReferenceObject::serial
   int views_;
   int size_;
   int columns_;

@@ -89,4 +89,8 @@ std::string bopCsv(const std::vector<BopEstimate>& estimates);
 /// Writes bopCsv(), whole or not at all.
 void writeBopCsv(const std::filesystem::path& path, const std::vector<BopEstimate>& estimates);
 
+/// Reads such a file, by anybody. Throws Error, naming the line, for a row that is damaged, and for
+/// rows of one image with different times.
+std::vector<BopEstimate> readBopCsv(const std::filesystem::path& path);
+
 }  // namespace rangepose

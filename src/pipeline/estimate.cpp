@@ -77,6 +77,9 @@ class Estimator {
       const ScopedTimer timer(result_.times, "coarse icp");
       candidates = refineCoarsely(std::move(candidates), database_, scene, options_.verified);
     }
+    if (trace != nullptr) {
+      for (const Candidate& candidate : candidates) trace->coarse.push_back(estimateOf(candidate));
+    }
     const ScopedTimer timer(result_.times, "fine icp and check");
     refineFinely(candidates, database_, scene, stages_);
     candidates = bestOfEachPlace(std::move(candidates), database_);

@@ -54,6 +54,9 @@ struct ObjectTrace {
 
 struct EstimateTrace {
   Image<std::uint8_t> foreground;
+  /// After the alignment with the views' own points, the best of each start, best first: all that
+  /// the reference views can say, nothing rendered yet. First pass only.
+  std::vector<PoseEstimate> coarse;
   std::vector<PoseEstimate> verified;  ///< checked poses, one for each place, best first
   std::vector<ObjectTrace> objects;    ///< one for each object of the database; first pass only
 };

@@ -2,21 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
 
 namespace rangepose {
 namespace {
-
-/// The table as if nothing lay on it; 0 where a ray passes it by.
-SurfaceTexel tableAt(const Camera& camera, const Pose& camera_from_world, int u, int v) {
-  const glm::dvec3 up = camera_from_world.rotation[2];
-  const double along_ray = glm::dot(up, camera.unproject(u, v, 1.0));
-  const double z = glm::dot(up, camera_from_world.translation_mm) / along_ray;
-  if (!(along_ray < 0.0) || !(z > 0.0)) return SurfaceTexel(0.0f);
-  return SurfaceTexel(glm::vec3(up), static_cast<float>(z));
-}
 
 /// The same camera with more image on all sides.
 Camera padded(const Camera& camera, int margin_px) {
@@ -28,26 +20,6 @@ Camera padded(const Camera& camera, int margin_px) {
   return wide;
 }
 
-void renderPart(const Mesh& mesh, int index, const Pose& camera_from_object, CleanView& view) {
-  const Sphere sphere = boundingSphere(mesh);
-  const int all = std::max(view.camera.width, view.camera.height);
-  const SurfaceWindow window =
-      windowAround(view.camera, camera_from_object * sphere.center_mm, sphere.radius_mm, all);
-  const Image<SurfaceTexel> seen =
-      host::renderSurface(mesh, view.camera, camera_from_object, window);
-  for (int y = 0; y < window.height; ++y) {
-    for (int x = 0; x < window.width; ++x) {
-      const SurfaceTexel& texel = seen.at(x, y);
-      if (texel.w == 0.0f || !view.surface.contains(window.x0 + x, window.y0 + y)) continue;
-      ++view.silhouette_px[static_cast<std::size_t>(index)];
-      SurfaceTexel& nearest = view.surface.at(window.x0 + x, window.y0 + y);
-      if (nearest.w != 0.0f && nearest.w <= texel.w) continue;
-      nearest = texel;
-      view.part.at(window.x0 + x, window.y0 + y) = static_cast<std::int16_t>(index);
-    }
-  }
-}
-
 template <typename T>
 Image<T> cropped(const Image<T>& image, int margin_px) {
   Image<T> result(image.width() - 2 * margin_px, image.height() - 2 * margin_px);
@@ -57,23 +29,76 @@ Image<T> cropped(const Image<T>& image, int margin_px) {
   return result;
 }
 
+void grow(PixelBox& box, int u, int v) {
+  if (box.empty()) {
+    box = {u, v, u + 1, v + 1};
+    return;
+  }
+  box = {
+      std::min(box.x0, u), std::min(box.y0, v), std::max(box.x1, u + 1), std::max(box.y1, v + 1)};
+}
+
+/// Pixels of a silhouette of the wide view that lie in the image and have a depth there.
+int measuredPixels(const Silhouette& silhouette, const Image<float>& depth_mm, int margin_px) {
+  int count = 0;
+  for (int y = 0; y < silhouette.covered.height(); ++y) {
+    for (int x = 0; x < silhouette.covered.width(); ++x) {
+      const int u = silhouette.window.x0 + x - margin_px;
+      const int v = silhouette.window.y0 + y - margin_px;
+      if (silhouette.covered.at(x, y) == 0 || !depth_mm.contains(u, v)) continue;
+      count += depth_mm.at(u, v) > 0.0f ? 1 : 0;
+    }
+  }
+  return count;
+}
+
+/// `wide` reaches margin_px beyond the image on all sides.
 std::vector<PartTruth> truthOf(const std::vector<PlacedPart>& heap,
                                const Pose& camera_from_world,
                                const CleanView& wide,
-                               const Image<std::int16_t>& seen) {
-  std::vector<int> visible_px(heap.size(), 0);
-  for (const std::int16_t index : seen) {
-    if (index >= 0) ++visible_px[static_cast<std::size_t>(index)];
-  }
+                               int margin_px,
+                               const Image<float>& depth_mm) {
   std::vector<PartTruth> truth;
   for (std::size_t k = 0; k < heap.size(); ++k) {
-    const int all = wide.silhouette_px[k];
-    truth.push_back({heap[k].mesh,
-                     camera_from_world * heap[k].world_from_object,
-                     all == 0 ? 0.0 : static_cast<double>(visible_px[k]) / all});
+    PartTruth part;
+    part.mesh = heap[k].mesh;
+    part.camera_from_object = camera_from_world * heap[k].world_from_object;
+    part.all_px = wide.silhouette_px[k];
+    part.measured_px = measuredPixels(wide.silhouettes[k], depth_mm, margin_px);
+    const PixelBox& box = wide.silhouettes[k].box;
+    if (!box.empty()) {
+      part.all_box = {
+          box.x0 - margin_px, box.y0 - margin_px, box.x1 - margin_px, box.y1 - margin_px};
+    }
+    truth.push_back(part);
+  }
+  for (int v = 0; v < depth_mm.height(); ++v) {
+    for (int u = 0; u < depth_mm.width(); ++u) {
+      const int index = wide.part.at(u + margin_px, v + margin_px);
+      if (index < 0) continue;
+      ++truth[static_cast<std::size_t>(index)].visible_px;
+      grow(truth[static_cast<std::size_t>(index)].visible_box, u, v);
+    }
+  }
+  for (PartTruth& part : truth) {
+    if (part.all_px > 0) {
+      part.visible_fraction = static_cast<double>(part.visible_px) / part.all_px;
+    }
   }
   return truth;
 }
+
+/// Tilted about the world's x axis, looking at a point from the distance of the options.
+Pose poseOver(const glm::dvec3& middle, const ScannerOptions& options) {
+  const double c = std::cos(options.tilt_rad);
+  const double s = std::sin(options.tilt_rad);
+  const glm::dmat3 world_from_camera(
+      glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, -c, -s), glm::dvec3(0.0, s, -c));
+  const glm::dvec3 eye = middle - options.distance_mm * world_from_camera[2];
+  return Pose{world_from_camera, eye}.inverse();
+}
+
+glm::dvec3 middleOf(const BinShape& bin) { return {0.0, 0.0, 0.5 * bin.inner_mm.z}; }
 
 void checkDistance(const std::vector<Mesh>& meshes,
                    const std::vector<PlacedPart>& heap,
@@ -96,7 +121,8 @@ void ScannerOptions::check() const {
            "scanner: image size " + std::to_string(width) + "x" + std::to_string(height) +
                ", must be 8 to 8192 each");
   RP_CHECK(focal_px >= 0.0, "scanner: focal_px must not be negative");
-  RP_CHECK(distance_mm > 0.0, "scanner: distance_mm must be positive");
+  RP_CHECK(distance_mm >= 0.0, "scanner: distance_mm must not be negative");
+  RP_CHECK(pixel_size_mm >= 0.0, "scanner: pixel_size_mm must not be negative");
   RP_CHECK(tilt_rad >= 0.0 && tilt_rad < 1.0, "scanner: tilt_rad must be 0 to 1");
   RP_CHECK(depth_scale > 0.0, "scanner: depth_scale must be positive");
   RP_CHECK(noise >= 0 && noise <= 2,
@@ -113,42 +139,23 @@ Camera scannerCamera(const ScannerOptions& options) {
   camera.cx = 0.5 * (options.width - 1);
   camera.cy = 0.5 * (options.height - 1);
   camera.depth_scale = options.depth_scale;
+  camera.orthographic = options.orthographic;
+  if (options.orthographic) {
+    camera.pixel_size_mm =
+        options.pixel_size_mm > 0.0 ? options.pixel_size_mm : options.distance_mm / camera.fx;
+    RP_CHECK(camera.pixel_size_mm > 0.0, "scanner: pixel_size_mm or distance_mm must be positive");
+  }
   return camera;
 }
 
 Pose scannerPose(const std::vector<PlacedPart>& heap, const ScannerOptions& options) {
   options.check();
   RP_CHECK(!heap.empty(), "scanner: the heap is empty");
+  RP_CHECK(options.distance_mm > 0.0, "scanner: distance_mm must be positive");
   glm::dvec3 middle(0.0);
   for (const PlacedPart& part : heap) middle += part.world_from_object.translation_mm;
   middle /= static_cast<double>(heap.size());
-  const double c = std::cos(options.tilt_rad);
-  const double s = std::sin(options.tilt_rad);
-  const glm::dmat3 world_from_camera(
-      glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, -c, -s), glm::dvec3(0.0, s, -c));
-  const glm::dvec3 eye = middle - options.distance_mm * world_from_camera[2];
-  return Pose{world_from_camera, eye}.inverse();
-}
-
-CleanView renderHeap(const std::vector<Mesh>& meshes,
-                     const std::vector<PlacedPart>& heap,
-                     const Camera& camera,
-                     const Pose& camera_from_world) {
-  CleanView view;
-  view.camera = camera;
-  view.surface = Image<SurfaceTexel>(camera.width, camera.height);
-  view.part = Image<std::int16_t>(camera.width, camera.height, std::int16_t{-1});
-  view.silhouette_px.assign(heap.size(), 0);
-  for (int v = 0; v < camera.height; ++v) {
-    for (int u = 0; u < camera.width; ++u) {
-      view.surface.at(u, v) = tableAt(camera, camera_from_world, u, v);
-    }
-  }
-  for (std::size_t k = 0; k < heap.size(); ++k) {
-    const Mesh& mesh = meshes.at(static_cast<std::size_t>(heap[k].mesh));
-    renderPart(mesh, static_cast<int>(k), camera_from_world * heap[k].world_from_object, view);
-  }
-  return view;
+  return poseOver(middle, options);
 }
 
 Scan scanHeap(const std::vector<Mesh>& meshes,
@@ -160,28 +167,64 @@ Scan scanHeap(const std::vector<Mesh>& meshes,
 Scan scanFrom(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const Pose& camera_from_world,
-              const ScannerOptions& options) {
+              const ScannerOptions& options,
+              const Surroundings& surroundings) {
   const Camera camera = scannerCamera(options);
   checkDistance(meshes, heap, camera_from_world);
   // Beyond the border, so that a part that it cuts counts as partly hidden.
   const int margin_px = camera.width / 2;
-  const CleanView wide = renderHeap(meshes, heap, padded(camera, margin_px), camera_from_world);
+  const Camera wide_camera = padded(camera, margin_px);
+  const CleanView wide = renderHeap(meshes, heap, wide_camera, camera_from_world, surroundings);
   const Image<SurfaceTexel> seen = cropped(wide.surface, margin_px);
   Scan scan;
+  scan.camera_from_world = camera_from_world;
   scan.image.camera = camera;
-  scan.truth = truthOf(heap, camera_from_world, wide, cropped(wide.part, margin_px));
   if (options.noise == 0) {
     scan.image.depth_mm = depthOf(seen);
-    return scan;
+  } else {
+    const SensorNoise noise = sensorNoise(options.noise);
+    std::optional<ProjectorView> projector;
+    if (!camera.orthographic) {
+      const Pose projector_from_camera{glm::dmat3(1.0), {-noise.baseline_mm, 0.0, 0.0}};
+      const Pose projector_from_world = projector_from_camera * camera_from_world;
+      const CleanView lit =
+          renderHeap(meshes, heap, wide_camera, projector_from_world, surroundings);
+      projector = ProjectorView{lit.camera, depthOf(lit.surface), noise.baseline_mm};
+    }
+    Random random(options.seed);
+    scan.image.depth_mm = sensed(seen, camera, projector, noise, random);
   }
-  const SensorNoise noise = sensorNoise(options.noise);
-  const Pose projector_from_camera{glm::dmat3(1.0), {-noise.baseline_mm, 0.0, 0.0}};
-  const CleanView lit = renderHeap(
-      meshes, heap, padded(camera, margin_px), projector_from_camera * camera_from_world);
-  const ProjectorView projector{lit.camera, depthOf(lit.surface), noise.baseline_mm};
-  Random random(options.seed);
-  scan.image.depth_mm = sensed(seen, camera, projector, noise, random);
+  scan.truth = truthOf(heap, camera_from_world, wide, margin_px, scan.image.depth_mm);
   return scan;
+}
+
+Surroundings surroundingsOf(const BinShape& bin) { return {-binThickness(bin), binMesh(bin)}; }
+
+double distanceFor(const BinShape& bin, const ScannerOptions& options) {
+  constexpr double kShare = 0.96;  // of the image, for the bin with its walls
+  ScannerOptions from = options;
+  from.distance_mm = 1.0;
+  const Camera camera = scannerCamera(from);
+  const Mesh mesh = binMesh(bin);
+  const glm::dvec2 half_px = 0.5 * kShare * glm::dvec2(camera.width, camera.height);
+  double distance_mm = 0.0;
+  for (const glm::vec3& vertex : mesh.vertices) {
+    const glm::dvec3 p = poseOver(middleOf(bin), from) * glm::dvec3(vertex);
+    const double needed =
+        camera.fx * std::max(std::abs(p.x) / half_px.x, std::abs(p.y) / half_px.y);
+    const double nearer = camera.orthographic ? 0.0 : from.distance_mm - p.z;
+    distance_mm = std::max(distance_mm, needed + nearer);
+  }
+  return std::ceil(distance_mm);
+}
+
+Scan scanBin(const std::vector<Mesh>& meshes,
+             const std::vector<PlacedPart>& parts,
+             const BinShape& bin,
+             const ScannerOptions& options) {
+  ScannerOptions from = options;
+  if (from.distance_mm == 0.0) from.distance_mm = distanceFor(bin, options);
+  return scanFrom(meshes, parts, poseOver(middleOf(bin), from), from, surroundingsOf(bin));
 }
 
 }  // namespace rangepose

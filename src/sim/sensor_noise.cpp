@@ -6,24 +6,33 @@
 namespace rangepose {
 namespace {
 
-bool besideJump(const Image<SurfaceTexel>& surface, int u, int v, double jump_mm) {
+/// The depth across the largest jump beside a pixel; nothing where there is no jump. 0: the other
+/// side is not seen at all.
+std::optional<double> acrossJump(const Image<SurfaceTexel>& surface, int u, int v, double jump_mm) {
   const float depth = surface.at(u, v).w;
+  std::optional<double> across;
+  double largest = jump_mm;
   for (int n = 0; n < 9; ++n) {
     const int x = u + n % 3 - 1;
     const int y = v + n / 3 - 1;
-    if (surface.contains(x, y) && std::abs(surface.at(x, y).w - depth) > jump_mm) return true;
+    if (!surface.contains(x, y)) continue;
+    const double jump = std::abs(surface.at(x, y).w - depth);
+    if (jump <= largest) continue;
+    largest = jump;
+    across = surface.at(x, y).w;
   }
-  return false;
+  return across;
 }
 
 }  // namespace
 
 SensorNoise sensorNoise(int level) {
   SensorNoise noise;
-  noise.sigma_mm = level >= 2 ? 1.2 : 0.3;
+  noise.sigma_mm = level >= 2 ? 1.0 : 0.3;
   noise.edge_loss = level >= 2 ? 0.6 : 0.3;
+  noise.edge_mix = level >= 2 ? 0.2 : 0.1;
   noise.grazing_cosine = level >= 2 ? 0.45 : 0.3;
-  noise.random_loss = level >= 2 ? 0.03 : 0.002;
+  noise.random_loss = level >= 2 ? 0.10 : 0.002;
   return noise;
 }
 
@@ -52,7 +61,7 @@ bool isLit(const ProjectorView& projector, const Camera& camera, int u, int v, d
 
 Image<float> sensed(const Image<SurfaceTexel>& surface,
                     const Camera& camera,
-                    const ProjectorView& projector,
+                    const std::optional<ProjectorView>& projector,
                     const SensorNoise& noise,
                     Random& random) {
   Image<float> depth_mm(surface.width(), surface.height(), 0.0f);
@@ -65,14 +74,17 @@ Image<float> sensed(const Image<SurfaceTexel>& surface,
       const double grazing_draw = random.uniform();
       const double loss_draw = random.uniform();
       const double error = random.normal();
-      const double z = texel.w;
+      double z = texel.w;
       const glm::dvec3 ray = camera.viewingRay(camera.unproject(u, v, z));
       const double cosine = std::abs(glm::dot(glm::dvec3(texel), ray));
-      const bool lost = loss_draw < noise.random_loss ||
-                        grazing_draw * noise.grazing_cosine > cosine ||
-                        (edge_draw < noise.edge_loss && besideJump(surface, u, v, noise.jump_mm)) ||
-                        !isLit(projector, camera, u, v, z);
-      if (lost) continue;
+      if (loss_draw < noise.random_loss || grazing_draw * noise.grazing_cosine > cosine) continue;
+      if (projector && !isLit(*projector, camera, u, v, z)) continue;
+      if (edge_draw < noise.edge_loss + noise.edge_mix) {
+        const std::optional<double> across = acrossJump(surface, u, v, noise.jump_mm);
+        if (across && edge_draw < noise.edge_loss) continue;
+        if (across && *across > 0.0)
+          z += (edge_draw - noise.edge_loss) / noise.edge_mix * (*across - z);
+      }
       const double sigma_mm = noise.sigma_mm * (z / 1000.0) * (z / 1000.0) / std::max(cosine, 0.2);
       const double steps = std::round((z + sigma_mm * error) / camera.depth_scale);
       if (steps >= 1.0) depth_mm.at(u, v) = static_cast<float>(steps * camera.depth_scale);

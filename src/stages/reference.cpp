@@ -1,6 +1,7 @@
 #include "stages/reference.h"
 
 #include <algorithm>
+#include <atomic>
 
 namespace rangepose {
 
@@ -14,6 +15,11 @@ float ReferenceObject::maxArea() const {
   float area = 0.0f;
   for (const ReferenceView& view : views) area = std::max(area, view.area_px);
   return area;
+}
+
+std::uint64_t newReferenceSerial() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
 }
 
 int atlasColumns(int views) {

@@ -1,6 +1,7 @@
 // Reference range images of the objects that may be in a scene (paper Sect. 4).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "core/image.h"
 #include "core/pose.h"
 #include "geometry/mesh.h"
+#include "geometry/symmetry.h"
 
 namespace rangepose {
 
@@ -31,9 +33,15 @@ struct ReferenceView {
 /// on the object: range = z_view / pixel_mm + size.
 using ReferenceTexel = glm::vec4;
 
+/// Never the same twice in a process.
+std::uint64_t newReferenceSerial();
+
 struct ReferenceObject {
+  /// Another one whenever the views were rendered or read: what caches of an object go by.
+  std::uint64_t serial = newReferenceSerial();
   int id = 1;                 ///< BOP object id
   Mesh mesh;                  ///< [mm], in the object's own frame
+  Symmetries symmetries;      ///< rotations that leave it the same; empty: none, or not looked for
   glm::dvec3 center_mm{0.0};  ///< centre of the bounding sphere, in the object's frame [mm]
   double radius_mm = 0.0;     ///< of that sphere [mm]
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]

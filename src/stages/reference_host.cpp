@@ -87,6 +87,7 @@ void renderReferences(ReferenceObject& object,
   const int columns = atlasColumns(count);
   const int rows = (count + columns - 1) / columns;
   object.edt_passes = options.edt_passes;
+  object.serial = newReferenceSerial();
   object.atlas =
       Image<ReferenceTexel>(columns * object.size, rows * object.size, ReferenceTexel(0.0f));
   std::mutex progress_mutex;

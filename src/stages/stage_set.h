@@ -82,8 +82,7 @@ class StageSet {
                                          const SearchOptions& options) = 0;
 };
 
-/// The host path. Keeps a packed copy of the views of each object that it has searched; objects
-/// must outlive it and not move.
+/// The host path. Keeps a packed copy of the views of each object that it has searched.
 std::unique_ptr<StageSet> makeHostStages();
 
 }  // namespace rangepose

@@ -1,5 +1,4 @@
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "stages/channels_host.h"
@@ -101,13 +100,10 @@ class HostStages : public StageSet {
 
  private:
   const host::PackedViews& packed(const ReferenceObject& object) {
-    // By its atlas: another object may come to lie at the address of one that is gone.
-    const Key key{&object, object.atlas.data(), object.views.size()};
-    return packed_.try_emplace(key, object).first->second;
+    return packed_.try_emplace(object.serial, object).first->second;
   }
 
-  using Key = std::tuple<const ReferenceObject*, const ReferenceTexel*, std::size_t>;
-  std::map<Key, host::PackedViews> packed_;
+  std::map<std::uint64_t, host::PackedViews> packed_;  ///< by ReferenceObject::serial
 };
 
 }  // namespace

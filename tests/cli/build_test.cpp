@@ -36,8 +36,8 @@ TEST_F(BuildTest, WritesOneFileAndDescribesEachObject) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(files(), ElementsAre("out.rpdb"));
   EXPECT_THAT(result.out, ContainsRegex("rendering by (glsl|host)"));
-  EXPECT_THAT(result.out, ContainsRegex("1 +bolt +8252 +[0-9.]+ +[0-9.]+ +60 "));
-  EXPECT_THAT(result.out, ContainsRegex("2 +elbow +7680 +114.28 +[0-9.]+ +60 "));
+  EXPECT_THAT(result.out, ContainsRegex("1 +bolt +8252 +[0-9.]+ +[0-9.]+ +60 +[0-9.]+ +C6\n"));
+  EXPECT_THAT(result.out, ContainsRegex("2 +elbow +7680 +114.28 +[0-9.]+ +60 +[0-9.]+ +C2\n"));
   EXPECT_THAT(result.out, ContainsRegex("out.rpdb: [0-9.]+ MB, 2 objects, [0-9.]+ s"));
   EXPECT_EQ(result.err, "");
 }
@@ -81,7 +81,28 @@ TEST_F(BuildTest, BopModelsKeepTheirIds) {
                                 "--path",
                                 "host"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 "));
+  EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C6\n"));
+}
+
+TEST_F(BuildTest, SymmetriesOfModelsInfoComeFirst) {
+  std::filesystem::create_directories(folder() / "set/models");
+  std::filesystem::copy_file(bolt(), folder() / "set/models/obj_000007.ply");
+  write("set/models/models_info.json",
+        R"({"7": {"diameter": 62.6,
+                  "symmetries_discrete": [[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]]}})");
+  const RunResult result = run({"build",
+                                "--bop",
+                                "set",
+                                "-o",
+                                "out.rpdb",
+                                "--views",
+                                "20",
+                                "--size",
+                                "32",
+                                "--path",
+                                "host"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C2 \\(models_info.json\\)\n"));
 }
 
 TEST_F(BuildTest, OldDatabaseSurvivesAFailure) {

@@ -36,12 +36,6 @@ TEST_F(UsageTest, HelpOfEachCommandHasExamples) {
   }
 }
 
-TEST_F(UsageTest, HelpOffersOnlySamplingThatIsThere) {
-  const std::string help = run({"build", "--help"}).out;
-  EXPECT_THAT(help, HasSubstr("uniform"));
-  EXPECT_THAT(help, ::testing::Not(HasSubstr("adaptive")));
-}
-
 struct BadUsage {
   std::string name;
   Words arguments;
@@ -59,9 +53,6 @@ const BadUsage kBadUsages[] = {
     {"BuildWithoutModel", {"build", "-o", "a.rpdb"}, {"no model", "--bop"}},
     {"BuildWithoutOutput", {"build", "a.ply"}, {"--out"}},
     {"BuildModelsAndBop", {"build", "a.ply", "--bop", "d", "-o", "a.rpdb"}, {"--bop"}},
-    {"BuildAdaptive",
-     {"build", "a.ply", "-o", "a.rpdb", "--sampling", "adaptive"},
-     {"not available"}},
     {"BuildSampling", {"build", "a.ply", "-o", "a.rpdb", "--sampling", "best"}, {"best"}},
     {"BuildNoViews", {"build", "a.ply", "-o", "a.rpdb", "--views", "0"}, {"--views"}},
     {"BuildHugeViews", {"build", "a.ply", "-o", "a.rpdb", "--size", "4096"}, {"--size"}},

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -33,6 +34,10 @@ ReferenceDatabase smallDatabase() {
   ReferenceDatabase database;
   database.objects.push_back(rendered(test::meshOf(test::bracketBoxes()), 3, 16, 5));
   database.objects.push_back(rendered(test::plateMesh(30.0, 20.0), 7, 24, 2));
+  Symmetries& symmetries = database.objects[1].symmetries;
+  symmetries.discrete.push_back({rotationFromVector({0.0, 0.0, 3.0}), {1.0, 2.0, 3.0}});
+  symmetries.discrete.push_back({rotationFromVector({0.5, 0.0, 0.0}), {4.0, 5.0, 6.0}});
+  symmetries.continuous.push_back({{0.0, 1.0, 0.0}, {7.0, 8.0, 9.0}});
   return database;
 }
 
@@ -51,6 +56,18 @@ void expectSameObject(const ReferenceObject& actual, const ReferenceObject& expe
   EXPECT_EQ(actual.mesh.name, expected.mesh.name);
   EXPECT_EQ(actual.mesh.vertices, expected.mesh.vertices);
   EXPECT_EQ(actual.mesh.triangles, expected.mesh.triangles);
+  ASSERT_EQ(actual.symmetries.discrete.size(), expected.symmetries.discrete.size());
+  for (std::size_t i = 0; i < expected.symmetries.discrete.size(); ++i) {
+    EXPECT_EQ(actual.symmetries.discrete[i].rotation, expected.symmetries.discrete[i].rotation);
+    EXPECT_EQ(actual.symmetries.discrete[i].translation_mm,
+              expected.symmetries.discrete[i].translation_mm);
+  }
+  ASSERT_EQ(actual.symmetries.continuous.size(), expected.symmetries.continuous.size());
+  for (std::size_t i = 0; i < expected.symmetries.continuous.size(); ++i) {
+    EXPECT_EQ(actual.symmetries.continuous[i].direction,
+              expected.symmetries.continuous[i].direction);
+    EXPECT_EQ(actual.symmetries.continuous[i].point_mm, expected.symmetries.continuous[i].point_mm);
+  }
   EXPECT_EQ(actual.center_mm, expected.center_mm);
   EXPECT_EQ(actual.radius_mm, expected.radius_mm);
   EXPECT_EQ(actual.diameter_mm, expected.diameter_mm);
@@ -153,7 +170,7 @@ TEST(DatabaseFileTest, OtherFilesAndVersionsAreTold) {
               HasSubstr("not a rangepose database"));
   std::vector<char> newer = serialize(smallDatabase());
   newer[4] = static_cast<char>(newer[4] + 1);
-  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 2"), HasSubstr("reads version 1")));
+  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 3"), HasSubstr("reads version 2")));
 }
 
 TEST(DatabaseFileTest, ADatabaseWithoutObjectsIsRefused) {
@@ -176,6 +193,11 @@ TEST(DatabaseFileTest, ImpossibleSizesAreRefusedBeforeTheyAreUsed) {
                 o.views[1].box = {5, 5, 5, 3};
               }),
               HasSubstr("view 1"));
+  EXPECT_THAT(spoiled([](ReferenceObject& o) { o.symmetries.continuous[0].point_mm.y = NAN; }),
+              HasSubstr("symmetries"));
+  EXPECT_THAT(
+      spoiled([](ReferenceObject& o) { o.symmetries.discrete[1].rotation[2].x = INFINITY; }),
+      HasSubstr("symmetries"));
   EXPECT_THAT(spoiled([](ReferenceObject& o) { o.mesh.triangles[0].x = 99; }), HasSubstr("face 0"));
 }
 

@@ -21,7 +21,9 @@ using Declare = std::function<int()> (*)(CLI::App& command);
 
 std::function<int()> declareDoctor(CLI::App& command);
 std::function<int()> declareBuild(CLI::App& command);
+std::function<int()> declareSimulate(CLI::App& command);
 std::function<int()> declareEstimate(CLI::App& command);
 std::function<int()> declareCompare(CLI::App& command);
+std::function<int()> declareEvaluate(CLI::App& command);
 
 }  // namespace rangepose::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -13,12 +14,13 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "database/reference_database.h"
-#include "geometry/orientation_grid.h"
+#include "geometry/symmetry.h"
 #include "gles/references_gles.h"
 #include "io/atomic_file.h"
 #include "io/bop.h"
 #include "io/mesh_file.h"
 #include "pipeline/path_choice.h"
+#include "rangepose/build_views.h"
 #include "rangepose/command.h"
 #include "rangepose/console.h"
 #include "rangepose/progress.h"
@@ -30,6 +32,7 @@ namespace {
 constexpr const char* kExamples = R"(Examples:
   rangepose build models/elbow.ply -o parts.rpdb
   rangepose build a.stl b.obj -o parts.rpdb --unit m --views 2048
+  rangepose build a.stl -o a.rpdb --sampling adaptive       views as the part comes to lie in bins
   rangepose build --bop lm -o lm.rpdb         all models of a BOP data set, with their ids)";
 
 struct BuildArguments {
@@ -39,6 +42,8 @@ struct BuildArguments {
   int views = 1024;
   int size = 64;
   std::string sampling = "uniform";
+  int bins = 0;
+  std::string statistics;
   std::string unit = "mm";
   std::string path = "auto";
   int threads = 0;
@@ -47,18 +52,29 @@ struct BuildArguments {
 struct ModelFile {
   int id = 0;
   std::filesystem::path path;
+  std::optional<Symmetries> symmetries;  ///< as models_info.json has them
 };
+
+std::optional<Symmetries> givenSymmetries(const BopModel& model) {
+  if (!model.info) return std::nullopt;
+  Symmetries symmetries;
+  symmetries.discrete = model.info->symmetries_discrete;
+  for (const BopContinuousSymmetry& line : model.info->symmetries_continuous) {
+    symmetries.continuous.push_back({line.axis, line.offset_mm});
+  }
+  return symmetries;
+}
 
 std::vector<ModelFile> modelFiles(const BuildArguments& arguments) {
   std::vector<ModelFile> files;
   if (arguments.bop.empty()) {
     for (const std::string& model : arguments.models) {
-      files.push_back({static_cast<int>(files.size()) + 1, model});
+      files.push_back({static_cast<int>(files.size()) + 1, model, std::nullopt});
     }
     return files;
   }
   for (const BopModel& model : openBop(arguments.bop).models) {
-    files.push_back({model.obj_id, model.mesh_path});
+    files.push_back({model.obj_id, model.mesh_path, givenSymmetries(model)});
   }
   if (files.empty()) {
     throw Error("BOP data set " + arguments.bop +
@@ -84,9 +100,13 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
 class Builder {
  public:
   explicit Builder(const BuildArguments& arguments)
-      : arguments_(arguments),
-        context_(openContext(parsePathRequest(arguments.path), false)),
-        rotations_(uniformRotations(arguments.views)) {}
+      : arguments_(arguments), context_(openContext(parsePathRequest(arguments.path), false)) {
+    request_.adaptive = arguments.sampling == "adaptive";
+    request_.views = arguments.views;
+    request_.bins = arguments.bins;
+    request_.folder = std::filesystem::path(arguments.out).parent_path();
+    request_.picture_dir = arguments.statistics;
+  }
 
   std::string pathName() const {
     return context_ != nullptr ? "glsl (" + context_->info().renderer + ")" : "host";
@@ -96,33 +116,47 @@ class Builder {
     const auto begin = std::chrono::steady_clock::now();
     Mesh mesh = readMesh(file.path, parseLengthUnit(arguments_.unit));
     const ChannelOptions options = channelOptionsFor(arguments_.size);
-    ReferenceObject object = describeObject(mesh, file.id, arguments_.size, rotations_, options);
+    const Symmetries symmetries = file.symmetries ? *file.symmetries : findSymmetries(mesh);
+    const ChosenViews chosen = chooseViews(request_, file.path, mesh, symmetries);
+    if (!chosen.note.empty()) notes_.push_back(chosen.note);
+    ReferenceObject object =
+        describeObject(mesh, file.id, arguments_.size, chosen.rotations, options);
+    object.symmetries = symmetries;
     warnAboutSize(object, arguments_.unit);
-    {
-      Progress progress(std::cerr, object.mesh.name, arguments_.views, terminalProgress());
-      const auto report = [&progress](int done, int) { progress.update(done); };
-      if (context_ != nullptr) {
-        gles::renderReferences(*context_, object, options, report);
-      } else {
-        host::renderReferences(object, options, report);
-      }
-    }
-    std::cout << fmt::format("{:>6}  {:<20} {:>9} {:>12.2f} {:>9.3f} {:>6} {:>8.2f}\n",
+    render(object, options);
+    std::cout << fmt::format("{:>6}  {:<20} {:>9} {:>12.2f} {:>9.3f} {:>6} {:>8.2f}  {}{}\n",
                              object.id,
                              object.mesh.name,
                              object.mesh.triangles.size(),
                              object.diameter_mm,
                              object.pixel_mm,
                              object.views.size(),
-                             secondsSince(begin))
+                             secondsSince(begin),
+                             symmetryName(symmetries),
+                             file.symmetries ? " (models_info.json)" : "")
               << std::flush;
     return object;
   }
 
+  /// Where the views come from, a line an object.
+  const std::vector<std::string>& notes() const { return notes_; }
+
  private:
+  void render(ReferenceObject& object, const ChannelOptions& options) {
+    const int views = static_cast<int>(object.views.size());
+    Progress progress(std::cerr, object.mesh.name, views, terminalProgress());
+    const auto report = [&progress](int done, int) { progress.update(done); };
+    if (context_ != nullptr) {
+      gles::renderReferences(*context_, object, options, report);
+    } else {
+      host::renderReferences(object, options, report);
+    }
+  }
+
   const BuildArguments& arguments_;
   std::unique_ptr<gles::Context> context_;
-  std::vector<glm::dmat3> rotations_;
+  ViewRequest request_;
+  std::vector<std::string> notes_;
 };
 
 void warnAboutNames(const ReferenceDatabase& database) {
@@ -139,33 +173,40 @@ void checkUsage(const BuildArguments& arguments) {
     throw UsageError(arguments.bop.empty() ? "no model given; name mesh files or --bop DIR"
                                            : "give either mesh files or --bop DIR, not both");
   }
-  if (arguments.sampling == "adaptive") {
-    throw UsageError(
-        "--sampling adaptive is not available in this version; use --sampling uniform");
+  if (arguments.sampling == "adaptive") return;
+  if (arguments.bins != 0 || !arguments.statistics.empty()) {
+    throw UsageError("--bins and --statistics need --sampling adaptive");
   }
-  if (arguments.sampling != "uniform") {
-    throw UsageError("--sampling " + arguments.sampling + " is unknown; use --sampling uniform");
-  }
+}
+
+void checkPictureFolder(const std::string& folder) {
+  if (folder.empty()) return;
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  checkOutputFile(std::filesystem::path(folder) / "poses.png");
 }
 
 int build(const BuildArguments& arguments) {
   checkUsage(arguments);
   const auto begin = std::chrono::steady_clock::now();
   checkOutputFile(arguments.out);
+  checkPictureFolder(arguments.statistics);
   setThreadCount(arguments.threads);
   const std::vector<ModelFile> files = modelFiles(arguments);
   Builder builder(arguments);
   std::cout << "rendering by " << builder.pathName() << '\n'
-            << fmt::format("{:>6}  {:<20} {:>9} {:>12} {:>9} {:>6} {:>8}\n",
+            << fmt::format("{:>6}  {:<20} {:>9} {:>12} {:>9} {:>6} {:>8}  {}\n",
                            "obj_id",
                            "name",
                            "triangles",
                            "diameter[mm]",
                            "pixel[mm]",
                            "views",
-                           "time[s]");
+                           "time[s]",
+                           "symmetry");
   ReferenceDatabase database;
   for (const ModelFile& file : files) database.objects.push_back(builder.build(file));
+  for (const std::string& note : builder.notes()) std::cout << note << '\n';
   warnAboutNames(database);
   const std::vector<char> bytes = serialize(database);
   writeFileAtomically(arguments.out, std::string_view(bytes.data(), bytes.size()));
@@ -200,8 +241,24 @@ std::function<int()> declareBuild(CLI::App& command) {
   command.add_option("--size", arguments->size, "Width of a view [px]")
       ->check(CLI::Range(16, 128))
       ->capture_default_str();
-  command.add_option("--sampling", arguments->sampling, "How orientations are chosen: uniform")
+  command
+      .add_option("--sampling",
+                  arguments->sampling,
+                  "Orientations: uniform, or adaptive: dense where the part comes to lie in bins")
+      ->check(CLI::IsMember({"uniform", "adaptive"}))
       ->capture_default_str();
+  command
+      .add_option(
+          "--bins",
+          arguments->bins,
+          "Bins to simulate for --sampling adaptive [500]; not needed where NAME.poses lies "
+          "beside the mesh or the database")
+      ->check(CLI::Range(1, 100000));
+  command
+      .add_option("--statistics",
+                  arguments->statistics,
+                  "Write pictures of how the parts come to lie into this folder")
+      ->option_text("DIR");
   command.add_option("--unit", arguments->unit, "Of the meshes")
       ->check(CLI::IsMember({"mm", "m", "inch"}))
       ->capture_default_str();

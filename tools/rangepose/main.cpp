@@ -22,8 +22,10 @@ struct CommandEntry {
 constexpr CommandEntry kCommands[] = {
     {"doctor", "What EGL, GL and CUDA find here; which paths work, and why not", declareDoctor},
     {"build", "Makes a reference database from CAD models", declareBuild},
+    {"simulate", "Makes bins of parts by physics, scanned, with the truth", declareSimulate},
     {"estimate", "Finds the poses of parts in a depth image", declareEstimate},
     {"compare", "Runs the stages on several paths and shows where they part", declareCompare},
+    {"evaluate", "Measures results against the truth, as tables and plots", declareEvaluate},
 };
 
 constexpr const char* kFooter =

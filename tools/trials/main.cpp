@@ -6,13 +6,12 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
-#include <functional>
 #include <limits>
-#include <map>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
+#include "eval/ablation.h"
 #include "geometry/orientation_grid.h"
 #include "io/mesh_file.h"
 #include "pipeline/estimate.h"
@@ -140,33 +139,6 @@ Result runAll(const std::vector<Part>& parts,
   return sum;
 }
 
-using Change = std::function<void(EstimateOptions&)>;
-
-/// The options that the paper leaves open or that differ from it, each by itself.
-std::vector<std::pair<std::string, Change>> ablations() {
-  const auto error = [](auto member, auto value) {
-    return [member, value](EstimateOptions& o) { o.search.error.*member = value; };
-  };
-  const auto spread = [](float value) {
-    return [value](EstimateOptions& o) { o.search.simplex.spread = value; };
-  };
-  return {{"as released", [](EstimateOptions&) {}},
-          {"r_i as printed, A_i / A_max", error(&ErrorOptions::area, AreaFactor::kAsPrinted)},
-          {"r_i none", error(&ErrorOptions::area, AreaFactor::kNone)},
-          {"r_i sqrt(A_max / A_i)", error(&ErrorOptions::area, AreaFactor::kRoot)},
-          {"lambda 10", error(&ErrorOptions::lambda, 10.0f)},
-          {"lambda 40", error(&ErrorOptions::lambda, 40.0f)},
-          {"holes as printed", error(&ErrorOptions::holes, HolePolicy::kPaper)},
-          {"holes at the limit", error(&ErrorOptions::holes, HolePolicy::kLimit)},
-          {"range limit 4 px", error(&ErrorOptions::range_limit_px, 4.0f)},
-          {"range limit 16 px", error(&ErrorOptions::range_limit_px, 16.0f)},
-          {"range limit none", error(&ErrorOptions::range_limit_px, 1.0e9f)},
-          {"simplex spread 5 % (paper)", spread(0.05f)},
-          {"simplex spread 0.5 %", spread(0.005f)},
-          {"1 start", [](EstimateOptions& o) { o.starts = 1; }},
-          {"6 starts", [](EstimateOptions& o) { o.starts = 6; }}};
-}
-
 void run(const TrialOptions& options, bool ablation) {
   const std::vector<Part> parts = loadParts(options);
   const std::unique_ptr<StageSet> stages = makeHostStages();
@@ -186,10 +158,11 @@ void run(const TrialOptions& options, bool ablation) {
     printRow("all", runAll(parts, options, estimate_options, *stages, true));
     return;
   }
-  for (const auto& [name, change] : ablations()) {
+  for (const AblationRow& row : ablationRows()) {
+    if (row.size > 0 || row.scan_mm > 0.0) continue;  // `rangepose evaluate` has those
     EstimateOptions changed = estimate_options;
-    change(changed);
-    printRow(name, runAll(parts, options, changed, *stages, false));
+    row.change(changed);
+    printRow(row.name, runAll(parts, options, changed, *stages, false));
   }
 }
 

@@ -1,4 +1,4 @@
-// Bytes of plain values in a row, little endian: what the database file is made of.
+// Bytes of plain values in a row, little endian: what binary files are made of.
 #pragma once
 
 #include <bit>
@@ -38,11 +38,19 @@ class ByteWriter {
   std::vector<char> bytes_;
 };
 
+/// A type of file, for its header and for messages.
+struct FileKind {
+  char magic[4];
+  std::uint32_t version;
+  const char* name;    ///< e.g. "database"
+  const char* remedy;  ///< what to do about a bad one, e.g. "build the database again"
+};
+
 /// Never reads past the end: throws Error instead, naming the file.
 class ByteReader {
  public:
-  ByteReader(const char* begin, std::size_t size, std::string where)
-      : next_(begin), left_(size), where_(std::move(where)) {}
+  ByteReader(const char* begin, std::size_t size, const FileKind& kind, std::string where)
+      : next_(begin), left_(size), kind_(kind), where_(std::move(where)) {}
 
   template <typename T>
   T value() {
@@ -54,6 +62,7 @@ class ByteReader {
   template <typename T>
   void array(T* items, std::size_t count) {
     need(count, sizeof(T));
+    if (count == 0) return;
     std::memcpy(static_cast<void*>(items), next_, count * sizeof(T));
     next_ += count * sizeof(T);
     left_ -= count * sizeof(T);
@@ -71,17 +80,27 @@ class ByteReader {
   }
   std::size_t left() const { return left_; }
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(where_ + ": " + what + "; build the database again");
+    throw Error(where_ + ": " + what + "; " + kind_.remedy);
   }
 
  private:
   void need(std::uint64_t items, std::size_t item_size) const {
-    if (items > left_ / item_size) fail("truncated database");
+    if (items > left_ / item_size) fail(std::string("truncated ") + kind_.name);
   }
 
   const char* next_;
   std::size_t left_;
+  FileKind kind_;
   std::string where_;
 };
+
+/// A whole file: magic, version, checksum of the payload, its size, the payload.
+std::vector<char> framed(const FileKind& kind, const std::vector<char>& payload);
+
+/// The payload of a file that `framed` made; `bytes` must outlive the reader. Throws Error, naming
+/// `where`, for another type or version, and for a truncated or damaged file.
+ByteReader payloadOf(const FileKind& kind,
+                     const std::vector<char>& bytes,
+                     const std::string& where);
 
 }  // namespace rangepose
