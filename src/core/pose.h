@@ -1,6 +1,8 @@
 // Rigid transforms. Names read right to left: `camera_from_object`.
 #pragma once
 
+#include <array>
+
 #include "core/glm.h"
 
 namespace rangepose {
@@ -28,6 +30,10 @@ glm::dmat3 rotationFromVector(const glm::dvec3& vector);
 
 /// The rotation of a unit quaternion w + xi + yj + zk.
 glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w);
+
+/// w, x, y, z of the unit quaternion with w >= 0. Divides by the largest component, so it is exact
+/// at half turns, too.
+std::array<double, 4> quaternionOf(const glm::dmat3& rotation);
 
 /// The nearest rotation to a matrix that has drifted (Gram-Schmidt on its columns).
 glm::dmat3 orthonormalized(const glm::dmat3& rotation);

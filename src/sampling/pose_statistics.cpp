@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "core/byte_stream.h"
+#include "core/pose.h"
 
 namespace rangepose {
 namespace {
@@ -22,47 +23,9 @@ using Packed = std::array<std::uint16_t, 3>;
 constexpr double kScale = 16383.0 * std::numbers::sqrt2;  // smaller ones are within +-1/sqrt(2)
 constexpr double kMiddle = 16383.0;
 
-Quaternion quaternionOf(const glm::dmat3& r) {
-  // Four candidates, each 4 * component * quaternion; the one with the largest component is exact.
-  const double xx = r[0][0];
-  const double yy = r[1][1];
-  const double zz = r[2][2];
-  const double xy = r[0][1] + r[1][0];
-  const double xz = r[0][2] + r[2][0];
-  const double yz = r[1][2] + r[2][1];
-  const double wx = r[1][2] - r[2][1];
-  const double wy = r[2][0] - r[0][2];
-  const double wz = r[0][1] - r[1][0];
-  const std::array<Quaternion, 4> candidates = {Quaternion{1.0 + xx - yy - zz, xy, xz, wx},
-                                                Quaternion{xy, 1.0 - xx + yy - zz, yz, wy},
-                                                Quaternion{xz, yz, 1.0 - xx - yy + zz, wz},
-                                                Quaternion{wx, wy, wz, 1.0 + xx + yy + zz}};
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < 4; ++i) {
-    if (candidates[i][i] > candidates[best][best]) best = i;
-  }
-  Quaternion q = candidates[best];
-  double length = 0.0;
-  for (const double value : q) length += value * value;
-  for (double& value : q) value /= std::sqrt(length);
-  return q;
-}
-
-glm::dmat3 rotationOf(const Quaternion& quaternion) {
-  const auto [x, y, z, w] = quaternion;
-  return {1 - 2 * (y * y + z * z),
-          2 * (x * y + w * z),
-          2 * (x * z - w * y),
-          2 * (x * y - w * z),
-          1 - 2 * (x * x + z * z),
-          2 * (y * z + w * x),
-          2 * (x * z + w * y),
-          2 * (y * z - w * x),
-          1 - 2 * (x * x + y * y)};
-}
-
 Packed pack(const glm::dmat3& rotation) {
-  const Quaternion q = quaternionOf(rotation);
+  const auto [w, x, y, z] = quaternionOf(rotation);
+  const Quaternion q = {x, y, z, w};
   const auto largest = std::max_element(
       q.begin(), q.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   const double sign = *largest < 0.0 ? -1.0 : 1.0;
@@ -93,7 +56,7 @@ glm::dmat3 unpack(const Packed& packed) {
   double length = 0.0;
   for (const double value : q) length += value * value;
   for (double& value : q) value /= std::sqrt(length);
-  return rotationOf(q);
+  return rotationFromQuaternion(q[0], q[1], q[2], q[3]);
 }
 
 }  // namespace

@@ -21,6 +21,24 @@ class BuildTest : public CliTest {
     return run(arguments);
   }
   std::string bolt() const { return (kModels / "bolt.ply").string(); }
+  /// A data set whose only model is the bolt.
+  void makeBopSet() const {
+    std::filesystem::create_directories(folder() / "set/models");
+    std::filesystem::copy_file(bolt(), folder() / "set/models/obj_000007.ply");
+  }
+  RunResult buildBopSet() const {
+    return run({"build",
+                "--bop",
+                "set",
+                "-o",
+                "out.rpdb",
+                "--views",
+                "20",
+                "--size",
+                "32",
+                "--path",
+                "host"});
+  }
 };
 
 TEST_F(BuildTest, WritesOneFileAndDescribesEachObject) {
@@ -67,40 +85,18 @@ TEST_F(BuildTest, UnitScalesAndStrangeSizesAreWarnedOf) {
 }
 
 TEST_F(BuildTest, BopModelsKeepTheirIds) {
-  std::filesystem::create_directories(folder() / "set/models");
-  std::filesystem::copy_file(bolt(), folder() / "set/models/obj_000007.ply");
-  const RunResult result = run({"build",
-                                "--bop",
-                                "set",
-                                "-o",
-                                "out.rpdb",
-                                "--views",
-                                "20",
-                                "--size",
-                                "32",
-                                "--path",
-                                "host"});
+  makeBopSet();
+  const RunResult result = buildBopSet();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C6\n"));
 }
 
 TEST_F(BuildTest, SymmetriesOfModelsInfoComeFirst) {
-  std::filesystem::create_directories(folder() / "set/models");
-  std::filesystem::copy_file(bolt(), folder() / "set/models/obj_000007.ply");
+  makeBopSet();
   write("set/models/models_info.json",
         R"({"7": {"diameter": 62.6,
                   "symmetries_discrete": [[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]]}})");
-  const RunResult result = run({"build",
-                                "--bop",
-                                "set",
-                                "-o",
-                                "out.rpdb",
-                                "--views",
-                                "20",
-                                "--size",
-                                "32",
-                                "--path",
-                                "host"});
+  const RunResult result = buildBopSet();
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C2 \\(models_info.json\\)\n"));
 }

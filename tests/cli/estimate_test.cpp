@@ -91,6 +91,23 @@ std::string demoCloud() {
          "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number + "\nDATA ascii\n" + points.str();
 }
 
+class EstimateCloudTest : public EstimateTest {
+ protected:
+  RunResult estimateCloud(const std::vector<std::string>& more) const {
+    std::vector<std::string> arguments = {"estimate",
+                                          "--db",
+                                          elbowDatabase(),
+                                          "--cloud",
+                                          write("demo.pcd", demoCloud()).string(),
+                                          "--camera",
+                                          (kModels / "demo/camera.json").string(),
+                                          "--json",
+                                          "-"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run(arguments);
+  }
+};
+
 TEST_F(EstimateTest, FindsAnElbowOfTheDemo) {
   const json answer = estimateJson({});
   ASSERT_EQ(answer.at("poses").size(), 1U);
@@ -164,36 +181,16 @@ TEST_F(EstimateTest, AutoWorksWithoutEgl) {
   EXPECT_THAT(result.out, HasSubstr("path host"));
 }
 
-TEST_F(EstimateTest, CloudOfTheDemoGivesThePoseToo) {
-  const std::string cloud = write("demo.pcd", demoCloud()).string();
-  const RunResult result = run({"estimate",
-                                "--db",
-                                elbowDatabase(),
-                                "--cloud",
-                                cloud,
-                                "--camera",
-                                (kModels / "demo/camera.json").string(),
-                                "--json",
-                                "-"});
+TEST_F(EstimateCloudTest, CloudOfTheDemoGivesThePoseToo) {
+  const RunResult result = estimateCloud({});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json answer = json::parse(result.out);
   ASSERT_EQ(answer.at("poses").size(), 1U);
   EXPECT_LT(nearestTruth(poseOf(answer.at("poses").at(0))), 0.02 * kElbowDiameterMm);
 }
 
-TEST_F(EstimateTest, CloudInAWrongUnitIsWarnedOf) {
-  const std::string cloud = write("demo.pcd", demoCloud()).string();
-  const RunResult result = run({"estimate",
-                                "--db",
-                                elbowDatabase(),
-                                "--cloud",
-                                cloud,
-                                "--camera",
-                                (kModels / "demo/camera.json").string(),
-                                "--unit",
-                                "mm",
-                                "--json",
-                                "-"});
+TEST_F(EstimateCloudTest, CloudInAWrongUnitIsWarnedOf) {
+  const RunResult result = estimateCloud({"--unit", "mm"});
   EXPECT_THAT(result.err, ContainsRegex("rangepose: warning: object elbow .* unit"));
   EXPECT_TRUE(json::accept(result.out));
 }

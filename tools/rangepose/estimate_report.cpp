@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "rangepose/quaternion.h"
 
 namespace rangepose::cli {
 namespace {

@@ -1,12 +1,11 @@
-#include "rangepose/quaternion.h"
-
+// Rotations as quaternions: what the JSON of an estimate and the files of statistics hold.
 #include <gtest/gtest.h>
 
 #include <numbers>
 
 #include "core/pose.h"
 
-namespace rangepose::cli {
+namespace rangepose {
 namespace {
 
 TEST(QuaternionTest, TurnsByHalfTheAngleAboutTheAxis) {
@@ -31,4 +30,4 @@ TEST(QuaternionTest, HalfTurnsAboutTheAxes) {
 }
 
 }  // namespace
-}  // namespace rangepose::cli
+}  // namespace rangepose
