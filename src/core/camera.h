@@ -1,6 +1,7 @@
 // The depth camera: pinhole (no distortion) or orthographic, and the image it took.
 #pragma once
 
+#include "core/device.h"
 #include "core/glm.h"
 #include "core/image.h"
 #include "core/pose.h"
@@ -20,21 +21,23 @@ struct Camera {
   double pixel_size_mm = 0.0;  ///< width of a pixel of an orthographic scan [mm]
 
   /// The point seen at pixel (u, v) at depth z_mm (distance along z, not along the ray).
-  glm::dvec3 unproject(double u, double v, double z_mm) const {
+  RP_HD glm::dvec3 unproject(double u, double v, double z_mm) const {
     if (orthographic) return {(u - cx) * pixel_size_mm, (v - cy) * pixel_size_mm, z_mm};
     return {(u - cx) / fx * z_mm, (v - cy) / fy * z_mm, z_mm};
   }
   /// Pixel coordinates of a point in front of the camera (z > 0 unless orthographic).
-  glm::dvec2 project(const glm::dvec3& point) const {
+  RP_HD glm::dvec2 project(const glm::dvec3& point) const {
     if (orthographic) return {point.x / pixel_size_mm + cx, point.y / pixel_size_mm + cy};
     return {point.x / point.z * fx + cx, point.y / point.z * fy + cy};
   }
   /// Unit vector along the viewing ray through a point, away from the camera.
-  glm::dvec3 viewingRay(const glm::dvec3& point) const {
+  RP_HD glm::dvec3 viewingRay(const glm::dvec3& point) const {
     return orthographic ? glm::dvec3(0.0, 0.0, 1.0) : glm::normalize(point);
   }
   /// Spacing of neighbouring pixels on a plane at depth z_mm that faces the camera [mm].
-  double pixelSpacingMm(double z_mm) const { return orthographic ? pixel_size_mm : z_mm / fx; }
+  RP_HD double pixelSpacingMm(double z_mm) const {
+    return orthographic ? pixel_size_mm : z_mm / fx;
+  }
 
   /// Throws Error naming the bad field (singular camera matrix, zero size, non-finite value).
   void check() const;
@@ -63,12 +66,12 @@ struct OrthoCamera {
   double pixel_mm = 1.0;   ///< [mm]
 
   /// Position in pixels (u, v, range) of a point given in the ortho frame in mm.
-  glm::dvec3 pixelFromOrtho(const glm::dvec3& point_mm) const {
+  RP_HD glm::dvec3 pixelFromOrtho(const glm::dvec3& point_mm) const {
     return {point_mm.x / pixel_mm + 0.5 * width - 0.5,
             point_mm.y / pixel_mm + 0.5 * height - 0.5,
             point_mm.z / pixel_mm};
   }
-  glm::dvec3 orthoFromPixel(double u, double v, double range_px) const {
+  RP_HD glm::dvec3 orthoFromPixel(double u, double v, double range_px) const {
     return {(u + 0.5 - 0.5 * width) * pixel_mm,
             (v + 0.5 - 0.5 * height) * pixel_mm,
             range_px * pixel_mm};

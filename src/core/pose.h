@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
+#include "core/device.h"
 #include "core/glm.h"
 
 namespace rangepose {
@@ -12,11 +14,13 @@ struct Pose {
   glm::dmat3 rotation{1.0};        ///< orthonormal, determinant +1
   glm::dvec3 translation_mm{0.0};  ///< [mm]
 
-  glm::dvec3 operator*(const glm::dvec3& point) const { return rotation * point + translation_mm; }
-  Pose operator*(const Pose& other) const {
+  RP_HD glm::dvec3 operator*(const glm::dvec3& point) const {
+    return rotation * point + translation_mm;
+  }
+  RP_HD Pose operator*(const Pose& other) const {
     return {rotation * other.rotation, rotation * other.translation_mm + translation_mm};
   }
-  Pose inverse() const {
+  RP_HD Pose inverse() const {
     const glm::dmat3 transposed = glm::transpose(rotation);
     return {transposed, -(transposed * translation_mm)};
   }
@@ -26,7 +30,15 @@ struct Pose {
 double rotationAngleBetween(const glm::dmat3& a, const glm::dmat3& b);
 
 /// The rotation about the unit axis `vector / |vector|` by |vector| [rad] (Rodrigues).
-glm::dmat3 rotationFromVector(const glm::dvec3& vector);
+RP_HD glm::dmat3 rotationFromVector(const glm::dvec3& vector) {
+  const double angle = glm::length(vector);
+  const glm::dmat3 cross(
+      0.0, vector.z, -vector.y, -vector.z, 0.0, vector.x, vector.y, -vector.x, 0.0);
+  if (angle < 1e-12) return glm::dmat3(1.0) + cross;
+  const double first = std::sin(angle) / angle;
+  const double second = (1.0 - std::cos(angle)) / (angle * angle);
+  return glm::dmat3(1.0) + first * cross + second * (cross * cross);
+}
 
 /// The rotation of a unit quaternion w + xi + yj + zk.
 glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w);
@@ -36,6 +48,10 @@ glm::dmat3 rotationFromQuaternion(double x, double y, double z, double w);
 std::array<double, 4> quaternionOf(const glm::dmat3& rotation);
 
 /// The nearest rotation to a matrix that has drifted (Gram-Schmidt on its columns).
-glm::dmat3 orthonormalized(const glm::dmat3& rotation);
+RP_HD glm::dmat3 orthonormalized(const glm::dmat3& rotation) {
+  const glm::dvec3 x = glm::normalize(rotation[0]);
+  const glm::dvec3 y = glm::normalize(rotation[1] - glm::dot(rotation[1], x) * x);
+  return {x, y, glm::cross(x, y)};
+}
 
 }  // namespace rangepose

@@ -1,10 +1,10 @@
 #include "stages/channels_host.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "core/parallel.h"
+#include "stages/channels_core.h"
 #include "stages/edt_core.h"
 
 namespace rangepose::host {
@@ -12,47 +12,18 @@ namespace {
 
 constexpr int kRowsPerPiece = 32;
 
-void order(float& low, float& high) {
-  const float smaller = std::min(low, high);
-  high = std::max(low, high);
-  low = smaller;
-}
-
-/// Median of nine by a sorting network without branches, so that the row loop vectorises
-/// (Paeth 1990, "Median finding on a 3x3 grid").
-float medianOfNine(std::array<float, 9> p) {
-  order(p[1], p[2]);
-  order(p[4], p[5]);
-  order(p[7], p[8]);
-  order(p[0], p[1]);
-  order(p[3], p[4]);
-  order(p[6], p[7]);
-  order(p[1], p[2]);
-  order(p[4], p[5]);
-  order(p[7], p[8]);
-  p[3] = std::max(p[0], p[3]);
-  p[5] = std::min(p[5], p[8]);
-  order(p[4], p[7]);
-  p[6] = std::max(p[3], p[6]);
-  p[4] = std::max(p[1], p[4]);
-  p[2] = std::min(p[2], p[5]);
-  p[4] = std::min(p[4], p[7]);
-  order(p[4], p[2]);
-  p[4] = std::max(p[6], p[4]);
-  return std::min(p[4], p[2]);
-}
-
 float medianAt(
     const float* above, const float* here, const float* below, int left, int x, int right) {
-  return medianOfNine({above[left],
-                       above[x],
-                       above[right],
-                       here[left],
-                       here[x],
-                       here[right],
-                       below[left],
-                       below[x],
-                       below[right]});
+  float nine[9] = {above[left],
+                   above[x],
+                   above[right],
+                   here[left],
+                   here[x],
+                   here[right],
+                   below[left],
+                   below[x],
+                   below[right]};
+  return medianOfNine(nine);
 }
 
 }  // namespace
@@ -81,19 +52,23 @@ Image<float> edges(const Image<float>& range_px, float threshold_px) {
   Image<float> result(width, height);
   parallelFor(height, kRowsPerPiece, [&](int begin, int end) {
     for (int y = begin; y < end; ++y) {
-      const std::array<const float*, 3> rows = {range_px.row(std::max(y - 1, 0)),
-                                                range_px.row(y),
-                                                range_px.row(std::min(y + 1, height - 1))};
+      const float* above = range_px.row(std::max(y - 1, 0));
+      const float* here = range_px.row(y);
+      const float* below = range_px.row(std::min(y + 1, height - 1));
       float* out = result.row(y);
       for (int x = 0; x < width; ++x) {
-        const float here = rows[1][x];
-        float jump = 0.0f;
-        for (const float* row : rows) {
-          for (const int neighbour : {std::max(x - 1, 0), x, std::min(x + 1, width - 1)}) {
-            jump = std::max(jump, std::abs(row[neighbour] - here));
-          }
-        }
-        out[x] = here != 0.0f && jump > threshold_px ? 1.0f : 0.0f;
+        const int left = std::max(x - 1, 0);
+        const int right = std::min(x + 1, width - 1);
+        const float nine[9] = {above[left],
+                               above[x],
+                               above[right],
+                               here[left],
+                               here[x],
+                               here[right],
+                               below[left],
+                               below[x],
+                               below[right]};
+        out[x] = edgeOfNine(nine, threshold_px);
       }
     }
   });
@@ -134,10 +109,7 @@ Image<EdtTexel> distanceTexels(const Image<float>& range_px,
 Image<float> distance(const Image<float>& range_px, const Image<float>& edges, int passes) {
   const Image<EdtTexel> texels = distanceTexels(range_px, edges, passes);
   Image<float> result(range_px.width(), range_px.height());
-  std::transform(texels.begin(), texels.end(), result.begin(), [](const EdtTexel& texel) {
-    const float root = std::sqrt(std::abs(texel.signed_sq));
-    return texel.signed_sq < 0.0f ? -root : root;
-  });
+  std::transform(texels.begin(), texels.end(), result.begin(), edtRoot);
   return result;
 }
 

@@ -2,6 +2,8 @@
 // Twins: glsl/edt_init.frag, glsl/edt_step.frag, glsl/edt_root.frag.
 #pragma once
 
+#include <cmath>
+
 #include "stages/device.h"
 #include "stages/scene_channels.h"
 
@@ -36,6 +38,12 @@ RP_HD EdtTexel edtStep(int x, int y, const Read& read) {
     }
   }
   return best;
+}
+
+/// Signed distance [px] of a texel after the last pass.
+RP_HD float edtRoot(const EdtTexel& texel) {
+  const float root = std::sqrt(std::abs(texel.signed_sq));
+  return texel.signed_sq < 0.0f ? -root : root;
 }
 
 }  // namespace rangepose

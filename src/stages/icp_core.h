@@ -2,6 +2,10 @@
 // Chen and Medioni 1992). Shared by host and CUDA.
 #pragma once
 
+#include <cmath>
+
+#include "core/camera.h"
+#include "core/pose.h"
 #include "stages/device.h"
 
 namespace rangepose {
@@ -84,6 +88,120 @@ RP_HD bool solveStep(const IcpSums& sums, double damping, double (&x)[6]) {
   for (int i = 5; i >= 0; --i) {
     for (int m = i + 1; m < 6; ++m) x[i] -= a[m][i] * x[m];
   }
+  return true;
+}
+
+/// A depth image as the association reads it: `read(u, v)` gives the depth [mm] of a pixel inside
+/// of it, 0 where nothing was measured.
+template <typename Read>
+struct DepthReader {
+  const Camera& camera;
+  int width;   ///< [px]
+  int height;  ///< [px]
+  const Read& read;
+
+  RP_HD bool contains(int u, int v) const { return u >= 0 && v >= 0 && u < width && v < height; }
+};
+
+struct IcpPartner {
+  bool found;
+  glm::dvec3 point_mm;  ///< in the camera frame
+};
+
+/// The nearest measured point to `point_mm` on a grid of 2 * steps + 1 pixels a side, whose spacing
+/// follows from `reach_mm`; none if the point is hidden or has no partner within the reach.
+template <typename Read>
+RP_HD IcpPartner
+icpPartner(const DepthReader<Read>& scene, const glm::dvec3& point_mm, double reach_mm, int steps) {
+  IcpPartner nearest{false, glm::dvec3(0.0)};
+  if (!scene.camera.orthographic && point_mm.z <= 1.0) return nearest;
+  const glm::dvec2 pixel = scene.camera.project(point_mm);
+  const double u_real = std::floor(pixel.x + 0.5);
+  const double v_real = std::floor(pixel.y + 0.5);
+  // Not "outside", so that a NaN counts as outside too.
+  if (!(u_real >= 0.0 && v_real >= 0.0 && u_real < scene.width && v_real < scene.height)) {
+    return nearest;
+  }
+  const int u = static_cast<int>(u_real);
+  const int v = static_cast<int>(v_real);
+  const double here = scene.read(u, v);
+  if (here != 0.0 && here < point_mm.z - reach_mm) return nearest;
+  const double reach_px = reach_mm / scene.camera.pixelSpacingMm(point_mm.z);
+  const int share = static_cast<int>(reach_px / steps);
+  const int spacing = share < 1 ? 1 : share;
+  double best = reach_mm * reach_mm;
+  for (int dv = -steps; dv <= steps; ++dv) {
+    for (int du = -steps; du <= steps; ++du) {
+      const int x = u + du * spacing;
+      const int y = v + dv * spacing;
+      if (!scene.contains(x, y)) continue;
+      const double depth = scene.read(x, y);
+      if (depth == 0.0) continue;
+      const glm::dvec3 candidate = scene.camera.unproject(x, y, depth);
+      const glm::dvec3 gap = candidate - point_mm;
+      const double squared = glm::dot(gap, gap);
+      if (squared < best) {
+        best = squared;
+        nearest = {true, candidate};
+      }
+    }
+  }
+  return nearest;
+}
+
+/// What all points of an iteration share.
+struct IcpFrame {
+  Pose pose;             ///< camera_from_object, as it is before the iteration
+  glm::dvec3 center_mm;  ///< of the object's sphere, in the camera frame
+  double radius_mm;      ///< of that sphere
+  double reach_mm;       ///< pairs farther apart are left out
+  int search_steps;
+  double slide;  ///< share of the point-to-point term
+};
+
+/// Adds a surface point of the object, given in its frame, with its partner; false if it has none.
+/// The weight is Tukey's over the reach.
+template <typename Read>
+RP_HD bool addPoint(IcpSums& sums,
+                    const IcpFrame& frame,
+                    const DepthReader<Read>& scene,
+                    const glm::vec3& position_mm,
+                    const glm::vec3& normal) {
+  const glm::dvec3 point = frame.pose * glm::dvec3(position_mm);
+  const IcpPartner partner = icpPartner(scene, point, frame.reach_mm, frame.search_steps);
+  if (!partner.found) return false;
+  const glm::dvec3 gap = partner.point_mm - point;
+  const glm::dvec3 m = (point - frame.center_mm) / frame.radius_mm;
+  const glm::dvec3 n = frame.pose.rotation * glm::dvec3(normal);
+  const glm::dvec3 s = (partner.point_mm - frame.center_mm) / frame.radius_mm;
+  const double rest = 1.0 - glm::dot(gap, gap) / (frame.reach_mm * frame.reach_mm);
+  const double weight = rest > 0.0 ? rest * rest : 0.0;
+  addPair(sums, {m.x, m.y, m.z}, {n.x, n.y, n.z}, {s.x, s.y, s.z}, weight, frame.slide);
+  return true;
+}
+
+/// Pairs below which a step says nothing.
+inline constexpr int kFewestPairs = 6;
+
+/// Root mean square of the point-to-plane residuals [mm].
+RP_HD double icpRms(const IcpSums& sums, double radius_mm) {
+  const double weight = sums.weight < 1e-9 ? 1e-9 : sums.weight;
+  return radius_mm * std::sqrt(sums.squared_mm / weight);
+}
+
+/// Moves the pose by the solution of the sums; false (and nothing moved) when there is none.
+/// `center_mm` is that of the object's sphere in the object's frame.
+RP_HD bool icpMove(Pose& pose,
+                   const IcpSums& sums,
+                   const IcpFrame& frame,
+                   const glm::dvec3& center_mm) {
+  double step[6];
+  if (!solveStep(sums, 1e-4 * sums.weight, step)) return false;
+  const glm::dmat3 turn = rotationFromVector({step[0], step[1], step[2]});
+  const glm::dvec3 moved =
+      frame.center_mm + frame.radius_mm * glm::dvec3(step[3], step[4], step[5]);
+  pose.rotation = orthonormalized(turn * pose.rotation);
+  pose.translation_mm = moved - pose.rotation * center_mm;
   return true;
 }
 

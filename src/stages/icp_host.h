@@ -19,6 +19,9 @@ struct IcpOptions {
   void check() const;  ///< throws Error naming the bad field
 };
 
+/// What the reach is multiplied with from one iteration to the next.
+double icpShrink(const IcpOptions& options);
+
 struct IcpResult {
   Pose camera_from_object;
   double rms_mm = 0.0;  ///< weighted root mean square of the point-to-plane residuals [mm]

@@ -111,13 +111,13 @@ RP_HD void nextShrink(SimplexState& s, int from, float spread, int max_iteration
 
 }  // namespace simplex_detail
 
-/// `value` is the error at `state.candidate`; errors are >= 0. Returns the state with the next
-/// candidate, or with phase kDone and the answer in vertex[lowest].
-RP_HD SimplexState simplexStep(SimplexState s, float value, float spread, int max_iterations) {
+/// `value` is the error at the candidate; errors are >= 0. Afterwards the state has the next
+/// candidate, or phase kDone and the answer in vertex[lowest].
+RP_HD void simplexAdvance(SimplexState& s, float value, float spread, int max_iterations) {
   using namespace simplex_detail;
   const SimplexPoint tried = {s.candidate.x, s.candidate.y, s.candidate.z, value};
   const SimplexPhase phase = static_cast<SimplexPhase>(s.phase);
-  if (phase == SimplexPhase::kDone) return s;
+  if (phase == SimplexPhase::kDone) return;
   if (phase <= SimplexPhase::kVertex3) {
     s.vertex[s.phase].value = value;
     if (phase == SimplexPhase::kVertex3) {
@@ -126,7 +126,7 @@ RP_HD SimplexState simplexStep(SimplexState s, float value, float spread, int ma
       ++s.phase;
       s.candidate = s.vertex[s.phase];
     }
-    return s;
+    return;
   }
   if (phase == SimplexPhase::kReflect) {
     float second = s.vertex[s.lowest].value;
@@ -145,18 +145,18 @@ RP_HD SimplexState simplexStep(SimplexState s, float value, float spread, int ma
       s.candidate = alongWorst(s, 0.5f);
       s.phase = static_cast<int>(SimplexPhase::kContract);
     }
-    return s;
+    return;
   }
   if (phase == SimplexPhase::kExpand) {
     s.vertex[s.highest] = value < s.reflected.value ? tried : s.reflected;
     beginIteration(s, spread, max_iterations);
-    return s;
+    return;
   }
   if (phase == SimplexPhase::kContract) {
     if (value < s.vertex[s.highest].value) {
       s.vertex[s.highest] = tried;
       beginIteration(s, spread, max_iterations);
-      return s;
+      return;
     }
     const SimplexPoint best = s.vertex[s.lowest];
     for (int i = 0; i < 4; ++i) {
@@ -165,12 +165,21 @@ RP_HD SimplexState simplexStep(SimplexState s, float value, float spread, int ma
         v = {0.5f * (v.x + best.x), 0.5f * (v.y + best.y), 0.5f * (v.z + best.z), 0.0f};
     }
     nextShrink(s, 0, spread, max_iterations);
-    return s;
+    return;
   }
   const int index = s.phase - static_cast<int>(SimplexPhase::kShrink0);
   s.vertex[index].value = value;
   nextShrink(s, index + 1, spread, max_iterations);
-  return s;
+}
+
+/// The same, leaving `state` as it is.
+RP_HD SimplexState simplexStep(const SimplexState& state,
+                               float value,
+                               float spread,
+                               int max_iterations) {
+  SimplexState next = state;
+  simplexAdvance(next, value, spread, max_iterations);
+  return next;
 }
 
 }  // namespace rangepose
