@@ -125,12 +125,8 @@ void uploadTo(cudaArray_t array,
                                    stream));
 }
 
-void downloadFrom(cudaArray_t array,
-                  Element element,
-                  int width,
-                  int height,
-                  void* into,
-                  cudaStream_t stream) {
+void downloadFrom(
+    cudaArray_t array, Element element, int width, int height, void* into, cudaStream_t stream) {
   const std::size_t row = rowBytes(element, width);
   RP_CUDA(cudaMemcpy2DFromArrayAsync(into,
                                      row,

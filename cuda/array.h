@@ -43,6 +43,7 @@ class Array {
   ~Array();
 
   ImageView view() const { return access_.view(); }
+  cudaArray_t array() const { return array_; }
   Element element() const { return element_; }
   int width() const { return access_.view().width; }
   int height() const { return access_.view().height; }
@@ -60,8 +61,12 @@ class Array {
 
 /// Copies rows of elements to or from an array that is owned or mapped; does not wait for the
 /// device.
-void uploadTo(
-    cudaArray_t array, Element element, int width, int height, const void* from, cudaStream_t stream);
+void uploadTo(cudaArray_t array,
+              Element element,
+              int width,
+              int height,
+              const void* from,
+              cudaStream_t stream);
 void downloadFrom(
     cudaArray_t array, Element element, int width, int height, void* into, cudaStream_t stream);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "gles/gl_text.h"
 #include "gles/handle.h"
 
 namespace rangepose::gles {
@@ -13,12 +14,15 @@ namespace {
 constexpr const char* kInstall =
     "; install an EGL driver, e.g. apt-get install libegl1 libgles2 libgl1-mesa-dri";
 
-struct GlExtension {
-  const char* name;
-  bool required;
-};
-constexpr GlExtension kUsedExtensions[] = {
-    {"GL_EXT_color_buffer_float", true}, {"GL_KHR_debug", false}, {"GL_EXT_gpu_shader5", false}};
+constexpr const char* kUsedByGles[] = {
+    "GL_EXT_color_buffer_float", "GL_KHR_debug", "GL_EXT_gpu_shader5"};
+/// Float targets and `precise` are part of OpenGL 4.5, but shaders of GLES 3.1 know no `precise`
+/// without the extension.
+constexpr const char* kUsedByDesktop[] = {
+    "GL_ARB_ES3_1_compatibility", "GL_KHR_debug", "GL_EXT_gpu_shader5"};
+constexpr const char* kPrecise = "GL_EXT_gpu_shader5";
+constexpr const char* kShadersOfGles = "GL_ARB_ES3_1_compatibility";
+constexpr GLenum kProgramPointSize = 0x8642;  // GL_PROGRAM_POINT_SIZE, not in GLES headers
 
 /// What the debug callback leaves for checkGl.
 struct DebugLog {
@@ -30,11 +34,6 @@ void GL_APIENTRY keepFirstError(
   if (type != GL_DEBUG_TYPE_ERROR_KHR) return;
   auto* log = static_cast<DebugLog*>(const_cast<void*>(user));
   if (log->first_error.empty()) log->first_error = message;
-}
-
-std::string glText(GLenum name) {
-  const GLubyte* text = glGetString(name);
-  return text == nullptr ? "" : reinterpret_cast<const char*>(text);
 }
 
 /// Renders one value into a texture of the format and reads it back.
@@ -62,31 +61,6 @@ bool rendersFloats(GLenum format) {
   return works;
 }
 
-std::string oneLine(std::string text) {
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
-  while (!text.empty() && text.back() == ' ') text.pop_back();
-  return text;
-}
-
-const char* glErrorName(GLenum error) {
-  switch (error) {
-    case GL_INVALID_ENUM:
-      return "GL_INVALID_ENUM";
-    case GL_INVALID_VALUE:
-      return "GL_INVALID_VALUE";
-    case GL_INVALID_OPERATION:
-      return "GL_INVALID_OPERATION";
-    case GL_INVALID_FRAMEBUFFER_OPERATION:
-      return "GL_INVALID_FRAMEBUFFER_OPERATION";
-    case GL_OUT_OF_MEMORY:
-      return "GL_OUT_OF_MEMORY";
-    default:
-      return "unknown GL error";
-  }
-}
-
 }  // namespace
 
 struct Context::State {
@@ -94,9 +68,12 @@ struct Context::State {
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State();
+  bool desktop() const { return info.api == Api::kDesktop; }
   EGLConfig chooseConfig() const;
+  EGLContext createContext(EGLConfig config, int major, int minor, bool debug) const;
   void create(bool debug);
   void describe();
+  void prepareDesktop() const;
   void listenToDebug();
   void requireFloatTargets() const;
   void destroy() noexcept;
@@ -111,9 +88,11 @@ struct Context::State {
 Context::State::State(const DisplaySource& source, const ContextOptions& options)
     : display(source) {
   info.platform = source.name;
+  info.api = options.api;
   try {
     create(options.debug);
     describe();
+    if (desktop()) prepareDesktop();
     requireFloatTargets();
     listenToDebug();
   } catch (...) {
@@ -126,6 +105,7 @@ Context::State::~State() { destroy(); }
 
 void Context::State::destroy() noexcept {
   if (context != EGL_NO_CONTEXT) {
+    eglBindAPI(desktop() ? EGL_OPENGL_API : EGL_OPENGL_ES_API);
     if (eglGetCurrentContext() == context) {
       eglMakeCurrent(display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
@@ -139,39 +119,44 @@ void Context::State::destroy() noexcept {
 }
 
 EGLConfig Context::State::chooseConfig() const {
-  const EGLint with_pbuffer[] = {
-      EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
-  const EGLint any[] = {
-      EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
-  EGLConfig config = nullptr;
-  EGLint count = 0;
-  if (eglChooseConfig(display.get(), with_pbuffer, &config, 1, &count) == EGL_TRUE && count > 0) {
-    return config;
+  const EGLint renderable = desktop() ? EGL_OPENGL_BIT : EGL_OPENGL_ES3_BIT;
+  for (const EGLint surfaces : {EGL_PBUFFER_BIT, EGL_DONT_CARE}) {
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, surfaces, EGL_RENDERABLE_TYPE, renderable, EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglChooseConfig(display.get(), wanted, &config, 1, &count) == EGL_TRUE && count > 0) {
+      return config;
+    }
   }
-  if (eglChooseConfig(display.get(), any, &config, 1, &count) == EGL_TRUE && count > 0) {
-    return config;
+  throw Unavailable(info.platform + ": no configuration for OpenGL" + (desktop() ? "" : " ES 3"));
+}
+
+EGLContext Context::State::createContext(EGLConfig config, int major, int minor, bool debug) const {
+  std::vector<EGLint> attributes = {
+      EGL_CONTEXT_MAJOR_VERSION, major, EGL_CONTEXT_MINOR_VERSION, minor};
+  if (desktop()) {
+    attributes.insert(attributes.end(),
+                      {EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT});
   }
-  throw Unavailable(info.platform + ": no configuration for OpenGL ES 3");
+  if (debug) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+  attributes.push_back(EGL_NONE);
+  return eglCreateContext(display.get(), config, EGL_NO_CONTEXT, attributes.data());
 }
 
 void Context::State::create(bool debug) {
-  if (eglBindAPI(EGL_OPENGL_ES_API) != EGL_TRUE) {
-    throw Unavailable(info.platform + ": no OpenGL ES");
+  const char* name = desktop() ? "OpenGL" : "OpenGL ES";
+  if (eglBindAPI(desktop() ? EGL_OPENGL_API : EGL_OPENGL_ES_API) != EGL_TRUE) {
+    throw Unavailable(info.platform + ": no " + name);
   }
   EGLConfig config = chooseConfig();
-  for (const EGLint minor : {2, 1}) {
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 3,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 minor,
-                                 debug ? EGL_CONTEXT_OPENGL_DEBUG : EGL_NONE,
-                                 EGL_TRUE,
-                                 EGL_NONE};
-    context = eglCreateContext(display.get(), config, EGL_NO_CONTEXT, attributes);
-    if (context != EGL_NO_CONTEXT) break;
+  const int major = desktop() ? 4 : 3;
+  const int least = desktop() ? 5 : 1;
+  for (int minor = least + 1; minor >= least && context == EGL_NO_CONTEXT; --minor) {
+    context = createContext(config, major, minor, debug);
   }
   if (context == EGL_NO_CONTEXT) {
-    throw Unavailable(info.platform + ": no OpenGL ES 3.1 (" + eglErrorName(eglGetError()) + ")");
+    throw Unavailable(info.platform + ": no " + name + " " + std::to_string(major) + "." +
+                      std::to_string(least) + " (" + eglErrorName(eglGetError()) + ")");
   }
   if (!display.has("EGL_KHR_surfaceless_context")) {
     const EGLint size[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
@@ -191,14 +176,22 @@ void Context::State::describe() {
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "SwiftShader"}) {
     info.software = info.software || info.renderer.find(name) != std::string::npos;
   }
-  const std::string all = glText(GL_EXTENSIONS);
-  for (const GlExtension& extension : kUsedExtensions) {
-    const bool found = hasWord(all.c_str(), extension.name);
-    (found ? info.extensions : info.missing).emplace_back(extension.name);
-    if (found && std::strcmp(extension.name, "GL_EXT_gpu_shader5") == 0) info.precise = true;
+  const std::string all = glExtensions();
+  for (const char* name : desktop() ? kUsedByDesktop : kUsedByGles) {
+    const bool found = hasWord(all.c_str(), name);
+    (found ? info.extensions : info.missing).emplace_back(name);
+    if (found && std::strcmp(name, kPrecise) == 0) info.precise = true;
   }
   glGetIntegerv(GL_MAX_TEXTURE_SIZE, &info.max_texture_size);
   glGetIntegerv(GL_MAX_DRAW_BUFFERS, &info.max_draw_buffers);
+}
+
+void Context::State::prepareDesktop() const {
+  if (!hasWord(glExtensions().c_str(), kShadersOfGles)) {
+    throw Unavailable(info.platform + " (" + info.renderer + "): no " + kShadersOfGles);
+  }
+  // In GLES shaders always set the size of points.
+  glEnable(kProgramPointSize);
 }
 
 void Context::State::requireFloatTargets() const {
@@ -209,9 +202,10 @@ void Context::State::requireFloatTargets() const {
 }
 
 void Context::State::listenToDebug() {
-  if (!hasWord(glText(GL_EXTENSIONS).c_str(), "GL_KHR_debug")) return;
+  if (!hasWord(glExtensions().c_str(), "GL_KHR_debug")) return;
+  // The extension adds no suffix in desktop GL.
   const auto set_callback = reinterpret_cast<PFNGLDEBUGMESSAGECALLBACKKHRPROC>(
-      eglGetProcAddress("glDebugMessageCallbackKHR"));
+      eglGetProcAddress(desktop() ? "glDebugMessageCallback" : "glDebugMessageCallbackKHR"));
   if (set_callback == nullptr) return;
   set_callback(keepFirstError, &log);
   glEnable(GL_DEBUG_OUTPUT_KHR);
@@ -229,14 +223,21 @@ Context::Context(const ContextOptions& options) {
       reasons += (reasons.empty() ? "" : "; ") + std::string(error.what());
     }
   }
-  throw Unavailable("no headless OpenGL ES 3.1 with float targets here: " + reasons + kInstall);
+  const char* name = options.api == Api::kDesktop ? "OpenGL 4.5" : "OpenGL ES 3.1";
+  throw Unavailable("no headless " + std::string(name) + " with float targets here: " + reasons +
+                    kInstall);
 }
+
+Context::Context(const DisplaySource& source, const ContextOptions& options)
+    : state_(std::make_unique<State>(source, options)) {}
 
 Context::Context(Context&&) noexcept = default;
 Context& Context::operator=(Context&&) noexcept = default;
 Context::~Context() = default;
 
 void Context::makeCurrent() {
+  // The API that is bound on this thread may be that of another context.
+  eglBindAPI(state_->desktop() ? EGL_OPENGL_API : EGL_OPENGL_ES_API);
   if (eglGetCurrentContext() == state_->context) return;
   const EGLSurface surface = state_->surface;
   if (eglMakeCurrent(state_->display.get(), surface, surface, state_->context) != EGL_TRUE) {

@@ -1,4 +1,5 @@
-// A GLES 3.1+ context without a display or window.
+// A GLES 3.1+ context without a display or window; or one of desktop GL that takes the same
+// shaders.
 #pragma once
 
 #include <memory>
@@ -10,12 +11,20 @@
 
 namespace rangepose::gles {
 
+enum class Api {
+  kGles,     ///< OpenGL ES 3.1 or 3.2
+  kDesktop,  ///< OpenGL 4.5 core with GL_ARB_ES3_1_compatibility: where CUDA shares only its
+             ///< textures
+};
+
 struct ContextOptions {
   int cuda_device = -1;  ///< prefer the EGL device of this CUDA device; -1: none in particular
   bool debug = false;    ///< ask the driver for a debug context (slower, tells more)
+  Api api = Api::kGles;
 };
 
 struct ContextInfo {
+  Api api = Api::kGles;
   std::string platform;  ///< the EGL display in use, e.g. "device 0", "surfaceless"
   std::string vendor;
   std::string renderer;
@@ -36,6 +45,8 @@ class Context {
   /// Made current on the calling thread. Throws Unavailable, saying what is missing and what to
   /// install.
   explicit Context(const ContextOptions& options = {});
+  /// On this display and no other.
+  Context(const DisplaySource& source, const ContextOptions& options);
   Context(Context&&) noexcept;
   Context& operator=(Context&&) noexcept;
   Context(const Context&) = delete;

@@ -59,8 +59,8 @@ EglDeviceInfo describe(const DeviceFunctions& functions, EGLDeviceEXT device, in
   return info;
 }
 
-DisplaySource sourceOf(EGLDeviceEXT device, int index) {
-  return {EGL_PLATFORM_DEVICE_EXT, device, "device " + std::to_string(index)};
+DisplaySource sourceOf(EGLDeviceEXT device, const EglDeviceInfo& info) {
+  return {EGL_PLATFORM_DEVICE_EXT, device, "device " + std::to_string(info.index), info.software};
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ std::vector<EglDeviceInfo> listEglDevices() {
   for (const EGLDeviceEXT device : functions.list()) {
     EglDeviceInfo info = describe(functions, device, index);
     try {
-      const Display display(sourceOf(device, index));
+      const Display display(sourceOf(device, info));
       const char* vendor = eglQueryString(display.get(), EGL_VENDOR);
       info.vendor = vendor == nullptr ? "" : vendor;
     } catch (const Unavailable&) {
@@ -127,7 +127,7 @@ std::vector<DisplaySource> displaySources(int cuda_device) {
     const EglDeviceInfo info = describe(functions, device, index);
     const bool wanted = cuda_device >= 0 && info.cuda_device == cuda_device;
     const int rank = wanted ? 0 : (info.software ? 2 : 1);
-    ranked.emplace_back(rank, sourceOf(device, index));
+    ranked.emplace_back(rank, sourceOf(device, info));
     ++index;
   }
   std::stable_sort(
@@ -137,9 +137,9 @@ std::vector<DisplaySource> displaySources(int cuda_device) {
   for (auto& [rank, source] : ranked) result.push_back(std::move(source));
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   if (hasWord(client, "EGL_MESA_platform_surfaceless")) {
-    result.push_back({EGL_PLATFORM_SURFACELESS_MESA, nullptr, "surfaceless"});
+    result.push_back({EGL_PLATFORM_SURFACELESS_MESA, nullptr, "surfaceless", false});
   }
-  result.push_back({0, nullptr, "default"});
+  result.push_back({0, nullptr, "default", false});
   return result;
 }
 

@@ -26,6 +26,7 @@ struct DisplaySource {
   EGLenum platform = 0;    ///< 0: the default display
   void* native = nullptr;  ///< the EGL device, where there is one
   std::string name;        ///< e.g. "device 0", "surfaceless"
+  bool software = false;   ///< known to be a software rasteriser before it is opened
 };
 
 /// Hardware devices first (`cuda_device` >= 0: the one with this EGL_CUDA_DEVICE_NV before all

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "gles/gl_text.h"
 #include "gles/shader_library.h"
 
 namespace rangepose::gles {
@@ -45,13 +46,6 @@ std::string joined(const Context& context,
     line += kLinesPerFile;
   }
   return text.str();
-}
-
-std::string oneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-  const std::size_t end = text.find_last_not_of(' ');
-  return end == std::string::npos ? "" : text.substr(0, end + 1);
 }
 
 /// The log with its line numbers written as "file:line". Drivers put a number of their own in

@@ -5,9 +5,11 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <optional>
 #include <thread>
 
 #include "core/error.h"
+#include "gles/device.h"
 #include "gles/framebuffer.h"
 #include "support/backends.h"
 
@@ -87,6 +89,50 @@ TEST_F(ContextTest, AnUnknownCudaDeviceIsOnlyAPreference) {
   ContextOptions options;
   options.cuda_device = 4711;
   EXPECT_NO_THROW(Context{options});
+}
+
+/// A context of desktop GL for each test.
+class DesktopContextTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    try {
+      ContextOptions options;
+      options.debug = true;
+      options.api = Api::kDesktop;
+      context_.emplace(options);
+    } catch (const Unavailable& error) {
+      GTEST_SKIP() << error.what();
+    }
+  }
+  std::optional<Context> context_;
+};
+
+TEST_F(DesktopContextTest, TellsThatItIsOne) {
+  const ContextInfo& info = context_->info();
+  EXPECT_EQ(info.api, Api::kDesktop);
+  EXPECT_EQ(info.version.find("OpenGL ES"), std::string::npos) << info.version;
+  EXPECT_THAT(info.extensions, testing::Contains("GL_ARB_ES3_1_compatibility"));
+}
+
+TEST_F(DesktopContextTest, CompilesEveryProgram) {
+  Device device(*context_);
+  for (int id = 0; id < static_cast<int>(ProgramId::kCount); ++id) {
+    EXPECT_NO_THROW(device.program(static_cast<ProgramId>(id)));
+  }
+  context_->checkGl("compiling");
+}
+
+TEST_F(DesktopContextTest, GivesWayToAGlesContextAndComesBack) {
+  {
+    Context gles;
+    const Canvas canvas(Format::kR32f, 2, 2);
+    gles.checkGl("a GLES context beside it");
+  }
+  context_->makeCurrent();
+  const Canvas canvas(Format::kR32f, 2, 2);
+  canvas.framebuffer.clear(glm::vec4(3.5f));
+  EXPECT_EQ(canvas.texture.downloadFloats().at(1, 1), 3.5f);
+  context_->checkGl("back again");
 }
 
 TEST(ContextDeathTest, WithoutADriverSaysWhatToInstall) {

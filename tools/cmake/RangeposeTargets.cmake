@@ -8,13 +8,21 @@ endif()
 function(rangepose_compile_options target)
   # No contraction: a*b+c rounds the same way with and without FMA, so that results do not depend on the
   # processor that the dispatcher finds.
-  target_compile_options(${target} PRIVATE -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off)
+  set(options -Wall -Wextra -Wconversion -Wshadow -ffp-contract=off)
   if(RANGEPOSE_WERROR)
-    target_compile_options(${target} PRIVATE -Werror)
+    list(APPEND options -Werror)
   endif()
   if(RANGEPOSE_SANITIZE)
-    target_compile_options(${target} PRIVATE -fsanitize=${RANGEPOSE_SANITIZE} -fno-omit-frame-pointer
-                                             -fno-sanitize-recover=all)
+    list(APPEND options -fsanitize=${RANGEPOSE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  endif()
+  # nvcc is told the same in its own words.
+  set(cuda_options -Xcompiler=-Wall,-Wextra,-ffp-contract=off -fmad=false -lineinfo)
+  if(RANGEPOSE_WERROR)
+    list(APPEND cuda_options -Werror=all-warnings)
+  endif()
+  target_compile_options(${target} PRIVATE "$<$<COMPILE_LANGUAGE:CXX>:${options}>"
+                                           "$<$<COMPILE_LANGUAGE:CUDA>:${cuda_options}>")
+  if(RANGEPOSE_SANITIZE)
     target_link_options(${target} PUBLIC -fsanitize=${RANGEPOSE_SANITIZE})
   endif()
 endfunction()

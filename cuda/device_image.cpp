@@ -1,0 +1,78 @@
+#include "cuda/device_image.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/error.h"
+
+namespace rangepose::cuda {
+namespace {
+
+std::vector<const SharedTexture*> sharedOf(const std::vector<const DeviceImage*>& images) {
+  std::vector<const SharedTexture*> shared;
+  for (const DeviceImage* image : images) {
+    if (image->shared() != nullptr) shared.push_back(image->shared());
+  }
+  return shared;
+}
+
+}  // namespace
+
+DeviceImage::DeviceImage(Memory memory, Element element, int width, int height)
+    : element_(element), width_(width), height_(height) {
+  if (memory == Memory::kShared) {
+    shared_.emplace(element, width, height);
+  } else {
+    own_.emplace(element, width, height);
+  }
+}
+
+Frame::Frame(const std::vector<const DeviceImage*>& images, cudaStream_t stream)
+    : mapped_(sharedOf(images), stream), stream_(stream) {
+  std::size_t next = 0;
+  for (const DeviceImage* image : images) {
+    if (image->shared() != nullptr) {
+      entries_.push_back({image, mapped_.array(next), mapped_.view(next)});
+      ++next;
+    } else {
+      entries_.push_back({image, image->own_->array(), image->own_->view()});
+    }
+  }
+}
+
+const Frame::Entry& Frame::entry(const DeviceImage& image) const {
+  const auto found = std::find_if(
+      entries_.begin(), entries_.end(), [&](const Entry& entry) { return entry.image == &image; });
+  RP_CHECK(found != entries_.end(), "CUDA frame: the image is not mapped in it");
+  return *found;
+}
+
+ImageView Frame::view(const DeviceImage& image) const { return entry(image).view; }
+
+void Frame::upload(const DeviceImage& image, const void* from) const {
+  uploadTo(entry(image).array, image.element(), image.width(), image.height(), from, stream_);
+}
+
+void Frame::download(const DeviceImage& image, void* into) const {
+  downloadFrom(entry(image).array, image.element(), image.width(), image.height(), into, stream_);
+}
+
+ImagePool::Lease ImagePool::take(Element element, int width, int height) {
+  const auto fits = [&](const std::unique_ptr<DeviceImage>& image) {
+    return image->element() == element && image->width() == width && image->height() == height;
+  };
+  const auto found = std::find_if(free_->begin(), free_->end(), fits);
+  std::unique_ptr<DeviceImage> image;
+  if (found != free_->end()) {
+    image = std::move(*found);
+    free_->erase(found);
+  } else {
+    image = std::make_unique<DeviceImage>(memory_, element, width, height);
+  }
+  return Lease(image.release(), [free = std::weak_ptr<Free>(free_)](DeviceImage* returned) {
+    std::unique_ptr<DeviceImage> owned(returned);
+    if (const std::shared_ptr<Free> pool = free.lock()) pool->push_back(std::move(owned));
+  });
+}
+
+}  // namespace rangepose::cuda

@@ -1,0 +1,52 @@
+#include "cuda/packed_views.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace rangepose::cuda {
+
+PackedViews packViews(const ReferenceObject& object) {
+  RP_CHECK(object.size > 0 && object.size < 65536, "object: tiles must be 1..65535 px wide");
+  PackedViews packed;
+  for (int index = 0; index < static_cast<int>(object.views.size()); ++index) {
+    const ReferenceView& view = object.views[static_cast<std::size_t>(index)];
+    const glm::ivec2 origin = object.tileOrigin(index);
+    ViewEntry entry;
+    entry.first = static_cast<int>(packed.pixels.size());
+    entry.area_px = view.area_px;
+    entry.anchor_px = view.anchor_px;
+    for (int v = view.box.y0; v < view.box.y1; ++v) {
+      for (int u = view.box.x0; u < view.box.x1; ++u) {
+        const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
+        if (texel.a <= 0.0f) continue;
+        packed.pixels.push_back({texel.r, texel.g, texel.a, u + 65536 * v});
+        if (texel.r > 0.0f) entry.cover_count += 1.0f;
+      }
+    }
+    entry.count = static_cast<int>(packed.pixels.size()) - entry.first;
+    packed.most_pixels = std::max(packed.most_pixels, entry.count);
+    packed.entries.push_back(entry);
+  }
+  return packed;
+}
+
+SearchSetup searchSetup(const ReferenceObject& object,
+                        int window_px,
+                        const SearchOptions& options) {
+  options.simplex.check();
+  options.error.check();
+  SearchSetup setup;
+  setup.size = object.size;
+  setup.views = static_cast<int>(object.views.size());
+  setup.max_area_px = object.maxArea();
+  setup.lambda_per_px = options.error.lambdaPerPx();
+  setup.range_limit_px = options.error.range_limit_px;
+  setup.holes = options.error.holes;
+  setup.area = options.error.area;
+  setup.simplex = options.simplex;
+  setup.frame = windowFrame(window_px, object.size);
+  return setup;
+}
+
+}  // namespace rangepose::cuda
