@@ -60,7 +60,8 @@ class Estimator {
   /// Sect. 5 to 7 on what is left of the foreground.
   std::vector<Candidate> onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
     const Image<float> foreground_mm = masked(depth_, foreground);
-    const RefineScene scene{depth_, foreground_mm, result_.noise_mm};
+    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground_mm);
+    const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
@@ -81,7 +82,7 @@ class Estimator {
       for (const Candidate& candidate : candidates) trace->coarse.push_back(estimateOf(candidate));
     }
     const ScopedTimer timer(result_.times, "fine icp and check");
-    refineFinely(candidates, database_, scene, stages_);
+    refineFinely(candidates, database_, scene);
     candidates = bestOfEachPlace(std::move(candidates), database_);
     if (trace != nullptr) {
       for (const Candidate& candidate : candidates)

@@ -2,31 +2,19 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 #include <utility>
 
 #include "core/parallel.h"
-#include "pipeline/scene_window.h"
+#include "pipeline/candidates.h"
 
 namespace rangepose {
 namespace {
 
-constexpr int kFinePoints = 900;
-constexpr int kRenderPx = 112;
-constexpr int kFineIterations = 12;
-constexpr double kLaterReach = 1.5;  // tolerances
-/// A pose that moves by less has come to rest [share of the diameter].
-constexpr double kStill = 1e-4;
+using Points = std::vector<std::vector<SurfacePoint>>;  ///< of each candidate
 
-/// Mean distance of the object's extreme points in two poses, as a share of its diameter.
-double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
-  double sum = 0.0;
-  for (int corner = 0; corner < 6; ++corner) {
-    glm::dvec3 point = object.center_mm;
-    point[corner / 2] += (corner % 2 == 0 ? 0.6 : -0.6) * object.radius_mm;
-    sum += glm::distance(a * point, b * point);
-  }
-  return sum / 6.0 / object.diameter_mm;
+const ReferenceObject& objectOf(const Candidate& candidate, const ReferenceDatabase& database) {
+  return database.objects[static_cast<std::size_t>(candidate.object)];
 }
 
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
@@ -43,165 +31,12 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
-/// Of two poses that fit equally well the one that explains more of the scene is the better
-/// explanation: a part's face alone can be laid on many surfaces.
-double rankOf(const CheckResult& check, double mean_visible_mm2) {
-  return check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
+/// Mean area of the views of each object [mm^2].
+std::vector<double> meanVisibleAreas(const ReferenceDatabase& database) {
+  std::vector<double> areas;
+  for (const ReferenceObject& object : database.objects) areas.push_back(meanVisibleArea(object));
+  return areas;
 }
-
-/// Mean area of the object's views [mm^2].
-double meanVisibleArea(const ReferenceObject& object) {
-  return object.meanArea() * object.pixel_mm * object.pixel_mm;
-}
-
-struct FineRounds {
-  int rounds;          ///< at most
-  double first_reach;  ///< of the first round [tolerances]
-};
-
-/// Renders, aligns what is visible, and again until the pose is at rest; then checks.
-void refineOne(Candidate& candidate,
-               const ReferenceObject& object,
-               const RefineScene& scene,
-               const FineRounds& fine,
-               StageSet& stages) {
-  const Camera& camera = scene.depth.camera;
-  const double tolerance = toleranceFor(object, scene.noise_mm);
-  const auto render = [&](SurfaceWindow& window) {
-    window =
-        wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
-    return stages.renderSurface(object.mesh, camera, candidate.pose, window);
-  };
-  SurfaceWindow window;
-  for (int round = 0; round < fine.rounds; ++round) {
-    const Image<SurfaceTexel> surface = render(window);
-    const std::vector<SurfacePoint> points =
-        pointsOfSurface(surface, camera, window, candidate.pose, kFinePoints);
-    const double reach = round == 0 ? fine.first_reach : kLaterReach;
-    const IcpOptions options = icpOptions(reach * tolerance, tolerance, kFineIterations);
-    const Pose before = candidate.pose;
-    candidate.pose = host::icp(points,
-                               camera,
-                               scene.foreground_mm,
-                               candidate.pose,
-                               object.center_mm,
-                               object.radius_mm,
-                               options)
-                         .camera_from_object;
-    if (distanceBetween(object, before, candidate.pose) < kStill) break;
-  }
-  const Image<SurfaceTexel> surface = render(window);
-  candidate.check =
-      host::check(surface, window, scene.depth, checkOptionsFor(object, scene.noise_mm));
-  candidate.rank = rankOf(candidate.check, meanVisibleArea(object));
-}
-
-}  // namespace
-
-double toleranceFor(const ReferenceObject& object, double noise_mm) {
-  return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
-}
-
-namespace {
-
-using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
-
-ViewPoints fewPointsOfViews(const ReferenceObject& object) {
-  constexpr int kPoints = 40;
-  constexpr int kViewsPerPiece = 64;
-  ViewPoints points(object.views.size());
-  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
-    for (int view = begin; view < end; ++view)
-      points[static_cast<std::size_t>(view)] = pointsOfView(object, view, kPoints);
-  });
-  return points;
-}
-
-/// Judges rough poses by a few points of their views against the depth image, with a tolerance as
-/// wide as a rough pose is wrong. Unlike Eq. 1 it sees the difference between surface that is
-/// hidden and surface that is not there, which decides on parts that are partly covered.
-void judgeRoughly(std::vector<Candidate>& candidates,
-                  const ReferenceObject& object,
-                  const ViewPoints& points,
-                  const RefineScene& scene) {
-  constexpr int kCandidatesPerPiece = 64;
-  CheckOptions options;
-  options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * scene.noise_mm);
-  options.max_tilt_rad = 1.2;
-  const double pixel_mm2 = object.pixel_mm * object.pixel_mm;
-  const double mean_mm2 = meanVisibleArea(object);
-  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-      const auto view = static_cast<std::size_t>(candidate.view);
-      const double visible_mm2 = static_cast<double>(object.views[view].area_px) * pixel_mm2;
-      candidate.check =
-          host::checkPoints(points[view], candidate.pose, visible_mm2, scene.depth, options);
-      candidate.rank = rankOf(candidate.check, mean_mm2);
-    }
-  });
-}
-
-using Order = std::vector<const Candidate*>;
-
-template <typename Before>
-Order ordered(const std::vector<Candidate>& candidates, const Before& before) {
-  Order order;
-  for (const Candidate& candidate : candidates) order.push_back(&candidate);
-  std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
-    return before(*a, *b);
-  });
-  return order;
-}
-
-/// Takes from the two orders in turn what is not yet there, `count` in all.
-std::vector<Candidate> takeInTurn(const Order& first,
-                                  const Order& second,
-                                  const ReferenceObject& object,
-                                  int count) {
-  constexpr double kSame = 0.04;
-  std::vector<Candidate> kept;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    for (const Candidate* candidate : {first[i], second[i]}) {
-      if (static_cast<int>(kept.size()) >= count) return kept;
-      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-        return distanceBetween(object, other.rough, candidate->rough) < kSame;
-      });
-      if (!known) kept.push_back(*candidate);
-    }
-  }
-  return kept;
-}
-
-}  // namespace
-
-std::vector<Candidate> bestCandidates(const ReferenceObject& object,
-                                      int object_index,
-                                      const std::vector<Hypothesis>& hypotheses,
-                                      const std::vector<OrthoCamera>& cameras,
-                                      const RefineScene& scene,
-                                      int count) {
-  const ViewPoints points = fewPointsOfViews(object);
-  std::vector<Candidate> best;
-  for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
-    std::vector<Candidate> own;
-    for (const Hypothesis& hypothesis : hypotheses) {
-      if (hypothesis.window != w || hypothesis.error >= kWorstError) continue;
-      const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
-      own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
-    }
-    judgeRoughly(own, object, points, scene);
-    const Order by_error = ordered(
-        own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
-    const Order by_rank =
-        ordered(own, [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-    const std::vector<Candidate> kept = takeInTurn(by_error, by_rank, object, count);
-    best.insert(best.end(), kept.begin(), kept.end());
-  }
-  return best;
-}
-
-namespace {
 
 /// One round of alignment with the points of the candidates' own views.
 struct CoarseRound {
@@ -212,44 +47,50 @@ struct CoarseRound {
   double last_tolerances;  ///< reach of the last iteration, in tolerances
 };
 
+Points pointsOfViews(const std::vector<Candidate>& candidates,
+                     const ReferenceDatabase& database,
+                     int max_points) {
+  constexpr int kCandidatesPerPiece = 16;
+  Points points(candidates.size());
+  parallelFor(static_cast<int>(points.size()), kCandidatesPerPiece, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      points[i] = pointsOfView(objectOf(candidates[i], database), candidates[i].view, max_points);
+    }
+  });
+  return points;
+}
+
 void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
                     const CoarseRound& round) {
-  constexpr int kCandidatesPerPiece = 4;
-  std::vector<double> mean_mm2;
-  for (const ReferenceObject& object : database.objects)
-    mean_mm2.push_back(meanVisibleArea(object));
-  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
-      Candidate& candidate = candidates[static_cast<std::size_t>(i)];
-      const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-      const ReferenceView& view = object.views[static_cast<std::size_t>(candidate.view)];
-      const double tolerance = toleranceFor(object, scene.noise_mm);
-      const std::vector<SurfacePoint> points = pointsOfView(object, candidate.view, round.points);
-      IcpOptions options = icpOptions(round.first_reach * object.diameter_mm,
-                                      round.last_tolerances * tolerance,
-                                      round.iterations);
-      options.search_steps = round.search_steps;
-      candidate.pose = host::icp(points,
-                                 scene.depth.camera,
-                                 scene.foreground_mm,
-                                 candidate.pose,
-                                 object.center_mm,
-                                 object.radius_mm,
-                                 options)
-                           .camera_from_object;
-      const double visible_mm2 =
-          static_cast<double>(view.area_px) * object.pixel_mm * object.pixel_mm;
-      candidate.check = host::checkPoints(points,
-                                          candidate.pose,
-                                          visible_mm2,
-                                          scene.depth,
-                                          checkOptionsFor(object, scene.noise_mm));
-      candidate.rank =
-          rankOf(candidate.check, mean_mm2[static_cast<std::size_t>(candidate.object)]);
-    }
-  });
+  const Points points = pointsOfViews(candidates, database, round.points);
+  std::vector<AlignTask> alignments;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const ReferenceObject& object = objectOf(candidates[i], database);
+    IcpOptions options = icpOptions(round.first_reach * object.diameter_mm,
+                                    round.last_tolerances * toleranceFor(object, scene.noise_mm),
+                                    round.iterations);
+    options.search_steps = round.search_steps;
+    alignments.push_back(
+        {&points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
+  }
+  const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
+  std::vector<JudgeTask> tasks;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const ReferenceObject& object = objectOf(candidates[i], database);
+    candidates[i].pose = aligned[i].camera_from_object;
+    tasks.push_back({&points[i],
+                     candidates[i].pose,
+                     visibleArea(object, candidates[i].view),
+                     checkOptionsFor(object, scene.noise_mm)});
+  }
+  const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
+  const std::vector<double> mean_mm2 = meanVisibleAreas(database);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    setVerdict(
+        candidates[i], verdicts[i], mean_mm2[static_cast<std::size_t>(candidates[i].object)]);
+  }
 }
 
 }  // namespace
@@ -268,76 +109,113 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   return bestDistinct(std::move(candidates), database, count);
 }
 
-std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
-                                    const ReferenceDatabase& database,
-                                    int count) {
-  constexpr double kSame = 0.03;
-  std::stable_sort(candidates.begin(),
-                   candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-  std::vector<Candidate> best;
-  std::map<std::pair<int, int>, int> taken;
-  for (const Candidate& candidate : candidates) {
-    int& taken_here = taken[{candidate.object, candidate.window}];
-    if (taken_here >= count) continue;
-    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-    const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      return other.object == candidate.object &&
-             distanceBetween(object, other.pose, candidate.pose) < kSame;
-    });
-    if (known) continue;
-    best.push_back(candidate);
-    ++taken_here;
-  }
-  return best;
+namespace {
+
+struct FineRounds {
+  int rounds;          ///< at most
+  double first_reach;  ///< of the first round [tolerances]
+};
+
+/// What the camera would see of a posed candidate.
+struct Rendered {
+  SurfaceWindow window;
+  Image<SurfaceTexel> surface;
+};
+
+Rendered render(const Candidate& candidate,
+                const ReferenceObject& object,
+                const RefineScene& scene) {
+  constexpr int kRenderPx = 112;
+  const Camera& camera = scene.depth.camera;
+  const SurfaceWindow window =
+      wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+  return {window, scene.stages.renderSurface(object.mesh, camera, candidate.pose, window)};
 }
 
-std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
-                                       const ReferenceDatabase& database) {
-  constexpr double kSamePlace = 0.5;  // of the larger diameter
-  std::stable_sort(candidates.begin(),
-                   candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-  std::vector<Candidate> best;
-  for (const Candidate& candidate : candidates) {
-    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-    const glm::dvec3 center = candidate.pose * object.center_mm;
-    const bool taken = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      const ReferenceObject& owner = database.objects[static_cast<std::size_t>(other.object)];
-      const double reach = kSamePlace * std::max(object.diameter_mm, owner.diameter_mm);
-      return glm::distance(center, other.pose * owner.center_mm) < reach;
-    });
-    if (!taken) best.push_back(candidate);
-  }
-  std::stable_sort(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
-    return a.check.score > b.check.score;
+/// On all cores where the path may be called from several threads, else one after the other.
+template <typename Work>
+void forEachCandidate(std::size_t count, StageSet& stages, const Work& work) {
+  const int whole = std::max(static_cast<int>(count), 1);
+  parallelFor(static_cast<int>(count), stages.concurrent() ? 1 : whole, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) work(static_cast<std::size_t>(i));
   });
-  return best;
 }
+
+/// Renders the candidates that move, aligns what is visible, and gives those that moved still.
+std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
+                                       const std::vector<std::size_t>& moving,
+                                       const ReferenceDatabase& database,
+                                       const RefineScene& scene,
+                                       double reach_tolerances) {
+  constexpr int kFinePoints = 900;
+  constexpr int kFineIterations = 12;
+  // A pose that moves by less has come to rest [share of the diameter].
+  constexpr double kStill = 1e-4;
+  Points points(moving.size());
+  forEachCandidate(moving.size(), scene.stages, [&](std::size_t i) {
+    const Candidate& candidate = candidates[moving[i]];
+    const Rendered seen = render(candidate, objectOf(candidate, database), scene);
+    points[i] =
+        pointsOfSurface(seen.surface, scene.depth.camera, seen.window, candidate.pose, kFinePoints);
+  });
+  std::vector<AlignTask> tasks;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const Candidate& candidate = candidates[moving[i]];
+    const ReferenceObject& object = objectOf(candidate, database);
+    const double tolerance = toleranceFor(object, scene.noise_mm);
+    tasks.push_back({&points[i],
+                     candidate.pose,
+                     object.center_mm,
+                     object.radius_mm,
+                     icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations)});
+  }
+  const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, tasks);
+  std::vector<std::size_t> still_moving;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    Candidate& candidate = candidates[moving[i]];
+    const Pose before = std::exchange(candidate.pose, aligned[i].camera_from_object);
+    const double moved = distanceBetween(objectOf(candidate, database), before, candidate.pose);
+    if (!(moved < kStill)) still_moving.push_back(moving[i]);
+  }
+  return still_moving;
+}
+
+/// Aligns all until they rest, then checks them.
+void refineAll(std::vector<Candidate>& candidates,
+               const ReferenceDatabase& database,
+               const RefineScene& scene,
+               const FineRounds& fine) {
+  constexpr double kLaterReach = 1.5;  // tolerances
+  std::vector<std::size_t> moving(candidates.size());
+  std::iota(moving.begin(), moving.end(), std::size_t{0});
+  for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
+    const double reach = round == 0 ? fine.first_reach : kLaterReach;
+    moving = alignSurfaces(candidates, moving, database, scene, reach);
+  }
+  const std::vector<double> mean_mm2 = meanVisibleAreas(database);
+  forEachCandidate(candidates.size(), scene.stages, [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    const ReferenceObject& object = objectOf(candidate, database);
+    const Rendered seen = render(candidate, object, scene);
+    setVerdict(candidate,
+               host::check(
+                   seen.surface, seen.window, scene.depth, checkOptionsFor(object, scene.noise_mm)),
+               mean_mm2[static_cast<std::size_t>(candidate.object)]);
+  });
+}
+
+}  // namespace
 
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
-                  const RefineScene& scene,
-                  StageSet& stages) {
+                  const RefineScene& scene) {
   // A short alignment of all tells which few are worth a long one.
   constexpr FineRounds kAll{2, 6.0};
   constexpr FineRounds kFinalists{8, 3.0};
   constexpr int kFinalistsPerStart = 3;
-  const auto refineAll = [&](std::vector<Candidate>& all, const FineRounds& fine) {
-    const int count = static_cast<int>(all.size());
-    const int grain = stages.concurrent() ? 1 : std::max(count, 1);
-    parallelFor(count, grain, [&](int begin, int end) {
-      for (int i = begin; i < end; ++i) {
-        Candidate& candidate = all[static_cast<std::size_t>(i)];
-        const ReferenceObject& object =
-            database.objects[static_cast<std::size_t>(candidate.object)];
-        refineOne(candidate, object, scene, fine, stages);
-      }
-    });
-  };
-  refineAll(candidates, kAll);
+  refineAll(candidates, database, scene, kAll);
   candidates = bestDistinct(std::move(candidates), database, kFinalistsPerStart);
-  refineAll(candidates, kFinalists);
+  refineAll(candidates, database, scene, kFinalists);
 }
 
 }  // namespace rangepose

@@ -9,9 +9,10 @@ namespace rangepose {
 
 /// What refinement needs to know of a scene.
 struct RefineScene {
-  const DepthImage& depth;            ///< as measured: for the check
-  const Image<float>& foreground_mm;  ///< without background: for the alignment
-  double noise_mm;                    ///< of the depth [mm]
+  const DepthImage& depth;        ///< as measured: for the check
+  const ResidentDepth& resident;  ///< it and the same without background, for the alignment
+  double noise_mm;                ///< of the depth [mm]
+  StageSet& stages;               ///< of the path that `resident` is from
 };
 
 /// A rough pose and what became of it.
@@ -60,8 +61,7 @@ std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
 /// result; keeps the few best of each start and aligns those until they rest.
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
-                  const RefineScene& scene,
-                  StageSet& stages);
+                  const RefineScene& scene);
 
 /// Surfaces of an object closer than this count as the same [mm].
 double toleranceFor(const ReferenceObject& object, double noise_mm);

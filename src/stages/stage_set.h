@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "stages/check_host.h"
+#include "stages/icp_host.h"
 #include "stages/reference.h"
 #include "stages/scene_channels.h"
 #include "stages/search.h"
@@ -30,6 +32,29 @@ class ResidentScene {
   virtual const OrthoCamera& camera() const = 0;
   /// A copy in host memory.
   virtual SceneChannels download() const = 0;
+};
+
+/// A depth image, and what of it is not background, where the path keeps them.
+class ResidentDepth {
+ public:
+  virtual ~ResidentDepth() = default;
+};
+
+/// A pose to be aligned with the depth image without background; contract in icp_host.h.
+struct AlignTask {
+  const std::vector<SurfacePoint>* points = nullptr;
+  Pose start;  ///< camera_from_object
+  glm::dvec3 center_mm{0.0};
+  double radius_mm = 0.0;
+  IcpOptions options;
+};
+
+/// Points of a posed object to be judged by the whole depth image; contract in check_host.h.
+struct JudgeTask {
+  const std::vector<SurfacePoint>* points = nullptr;
+  Pose camera_from_object;
+  double visible_mm2 = 0.0;  ///< area that the points stand for [mm^2]
+  CheckOptions options;
 };
 
 class StageSet {
@@ -80,6 +105,16 @@ class StageSet {
                                          const std::vector<const ResidentScene*>& windows,
                                          const std::vector<float>& seed_range_px,
                                          const SearchOptions& options) = 0;
+
+  // Refinement of many poses at once. What is not overridden runs on the host.
+  /// `depth` and `foreground_mm` (0 on background) must outlive the result.
+  virtual std::unique_ptr<ResidentDepth> uploadDepth(const DepthImage& depth,
+                                                     const Image<float>& foreground_mm);
+  /// One result a task, in order. `depth` comes from the same path.
+  virtual std::vector<IcpResult> align(const ResidentDepth& depth,
+                                       const std::vector<AlignTask>& tasks);
+  virtual std::vector<CheckResult> judge(const ResidentDepth& depth,
+                                         const std::vector<JudgeTask>& tasks);
 };
 
 /// The host path. Keeps a packed copy of the views of each object that it has searched.

@@ -1,0 +1,183 @@
+#include "pipeline/candidates.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "core/parallel.h"
+#include "pipeline/scene_window.h"
+
+namespace rangepose {
+namespace {
+
+using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
+
+ViewPoints fewPointsOfViews(const ReferenceObject& object) {
+  constexpr int kPoints = 40;
+  constexpr int kViewsPerPiece = 64;
+  ViewPoints points(object.views.size());
+  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
+    for (int view = begin; view < end; ++view)
+      points[static_cast<std::size_t>(view)] = pointsOfView(object, view, kPoints);
+  });
+  return points;
+}
+
+/// Judges rough poses by a few points of their views against the depth image, with a tolerance as
+/// wide as a rough pose is wrong. Unlike Eq. 1 it sees the difference between surface that is
+/// hidden and surface that is not there, which decides on parts that are partly covered.
+void judgeRoughly(std::vector<Candidate>& candidates,
+                  const ReferenceObject& object,
+                  const ViewPoints& points,
+                  const RefineScene& scene) {
+  CheckOptions options;
+  options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * scene.noise_mm);
+  options.max_tilt_rad = 1.2;
+  std::vector<JudgeTask> tasks;
+  for (const Candidate& candidate : candidates) {
+    const auto view = static_cast<std::size_t>(candidate.view);
+    tasks.push_back({&points[view], candidate.pose, visibleArea(object, candidate.view), options});
+  }
+  const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
+  const double mean_mm2 = meanVisibleArea(object);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    setVerdict(candidates[i], verdicts[i], mean_mm2);
+  }
+}
+
+using Order = std::vector<const Candidate*>;
+
+template <typename Before>
+Order ordered(const std::vector<Candidate>& candidates, const Before& before) {
+  Order order;
+  for (const Candidate& candidate : candidates) order.push_back(&candidate);
+  std::stable_sort(order.begin(), order.end(), [&](const Candidate* a, const Candidate* b) {
+    return before(*a, *b);
+  });
+  return order;
+}
+
+/// Takes from the two orders in turn what is not yet there, `count` in all.
+std::vector<Candidate> takeInTurn(const Order& first,
+                                  const Order& second,
+                                  const ReferenceObject& object,
+                                  int count) {
+  constexpr double kSame = 0.04;
+  std::vector<Candidate> kept;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    for (const Candidate* candidate : {first[i], second[i]}) {
+      if (static_cast<int>(kept.size()) >= count) return kept;
+      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
+        return distanceBetween(object, other.rough, candidate->rough) < kSame;
+      });
+      if (!known) kept.push_back(*candidate);
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
+  double sum = 0.0;
+  for (int corner = 0; corner < 6; ++corner) {
+    glm::dvec3 point = object.center_mm;
+    point[corner / 2] += (corner % 2 == 0 ? 0.6 : -0.6) * object.radius_mm;
+    sum += glm::distance(a * point, b * point);
+  }
+  return sum / 6.0 / object.diameter_mm;
+}
+
+double visibleArea(const ReferenceObject& object, int view) {
+  const float area_px = object.views[static_cast<std::size_t>(view)].area_px;
+  return static_cast<double>(area_px) * object.pixel_mm * object.pixel_mm;
+}
+
+double meanVisibleArea(const ReferenceObject& object) {
+  return object.meanArea() * object.pixel_mm * object.pixel_mm;
+}
+
+void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
+  candidate.check = check;
+  candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
+}
+
+double toleranceFor(const ReferenceObject& object, double noise_mm) {
+  return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
+}
+
+std::vector<Candidate> bestCandidates(const ReferenceObject& object,
+                                      int object_index,
+                                      const std::vector<Hypothesis>& hypotheses,
+                                      const std::vector<OrthoCamera>& cameras,
+                                      const RefineScene& scene,
+                                      int count) {
+  const ViewPoints points = fewPointsOfViews(object);
+  std::vector<Candidate> best;
+  for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
+    std::vector<Candidate> own;
+    for (const Hypothesis& hypothesis : hypotheses) {
+      if (hypothesis.window != w || hypothesis.error >= kWorstError) continue;
+      const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
+      own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
+    }
+    judgeRoughly(own, object, points, scene);
+    const Order by_error = ordered(
+        own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
+    const Order by_rank =
+        ordered(own, [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+    const std::vector<Candidate> kept = takeInTurn(by_error, by_rank, object, count);
+    best.insert(best.end(), kept.begin(), kept.end());
+  }
+  return best;
+}
+
+std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
+                                    const ReferenceDatabase& database,
+                                    int count) {
+  constexpr double kSame = 0.03;
+  std::stable_sort(candidates.begin(),
+                   candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+  std::vector<Candidate> best;
+  std::map<std::pair<int, int>, int> taken;
+  for (const Candidate& candidate : candidates) {
+    int& taken_here = taken[{candidate.object, candidate.window}];
+    if (taken_here >= count) continue;
+    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+    const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
+      return other.object == candidate.object &&
+             distanceBetween(object, other.pose, candidate.pose) < kSame;
+    });
+    if (known) continue;
+    best.push_back(candidate);
+    ++taken_here;
+  }
+  return best;
+}
+
+std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
+                                       const ReferenceDatabase& database) {
+  constexpr double kSamePlace = 0.5;  // of the larger diameter
+  std::stable_sort(candidates.begin(),
+                   candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+  std::vector<Candidate> best;
+  for (const Candidate& candidate : candidates) {
+    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+    const glm::dvec3 center = candidate.pose * object.center_mm;
+    const bool taken = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
+      const ReferenceObject& owner = database.objects[static_cast<std::size_t>(other.object)];
+      const double reach = kSamePlace * std::max(object.diameter_mm, owner.diameter_mm);
+      return glm::distance(center, other.pose * owner.center_mm) < reach;
+    });
+    if (!taken) best.push_back(candidate);
+  }
+  std::stable_sort(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
+    return a.check.score > b.check.score;
+  });
+  return best;
+}
+
+}  // namespace rangepose

@@ -1,0 +1,20 @@
+// What the selection of candidates and their refinement share.
+#pragma once
+
+#include "pipeline/refine.h"
+
+namespace rangepose {
+
+/// Mean distance of the object's extreme points in two poses, as a share of its diameter.
+double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b);
+
+/// Area of a view [mm^2].
+double visibleArea(const ReferenceObject& object, int view);
+/// Mean area of the object's views [mm^2].
+double meanVisibleArea(const ReferenceObject& object);
+
+/// Sets check and rank. Of two poses that fit equally well the one that explains more of the scene
+/// is the better explanation: a part's face alone can be laid on many surfaces.
+void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visible_mm2);
+
+}  // namespace rangepose
