@@ -41,8 +41,7 @@ SearchSetup searchSetup(const ReferenceObject& object,
   setup.views = static_cast<int>(object.views.size());
   setup.max_area_px = object.maxArea();
   setup.lambda_per_px = options.error.lambdaPerPx();
-  setup.range_limit_px = options.error.range_limit_px;
-  setup.holes = options.error.holes;
+  setup.range = rangeRule(options.error.range_limit_px, options.error.holes);
   setup.area = options.error.area;
   setup.simplex = options.simplex;
   setup.frame = windowFrame(window_px, object.size);

@@ -2,6 +2,8 @@
 // Twins: glsl/error_pixel.frag, glsl/error_value (in glsl/common/).
 #pragma once
 
+#include <cmath>
+
 #include "stages/device.h"
 
 namespace rangepose {
@@ -52,35 +54,51 @@ struct ErrorTerms {
 /// Error of a translation at which nothing can be compared (outside of the window).
 inline constexpr float kWorstError = 1.0e6f;
 
-/// One reference pixel against one scene pixel. `reference_*` as in ReferenceTexel; `predicted` is
-/// the range that the reference has after the translation [px].
+/// What ErrorOptions say about a pixel's range, as numbers.
+struct RangeRule {
+  float limit;        ///< range differences count at most this much [px]
+  float hole_gap;     ///< difference over a hole [px]
+  float hole_weight;  ///< factor of the weight over a hole
+};
+
+RP_HD RangeRule rangeRule(float range_limit, HolePolicy holes) {
+  return {range_limit,
+          holes == HolePolicy::kLimit ? range_limit : 0.0f,
+          holes == HolePolicy::kIgnore ? 0.0f : 1.0f};
+}
+
+/// One reference pixel against one scene pixel. `reference_*` as in ReferenceTexel, the cosine not
+/// negative; `predicted` is the range that the reference has after the translation [px]. Without
+/// branches: the innermost loop of the fused search.
 RP_HD ErrorTerms errorOfPixel(float reference_distance,
                               float reference_cos,
                               float predicted,
                               float scene_distance,
                               float scene_range,
-                              float range_limit,
-                              HolePolicy holes) {
-  ErrorTerms terms{};
-  if (reference_distance > 0.0f) {
-    const float gap = scene_distance - reference_distance;
-    terms.cover_sum = gap < 0.0f ? -gap : gap;
-    terms.cover_count = 1.0f;
+                              const RangeRule& rule) {
+  const bool covers = reference_distance > 0.0f;
+  const bool hole = scene_range == 0.0f;
+  const float aside = std::fabs(scene_distance - reference_distance);
+  const float off = std::fmin(std::fabs(scene_range - predicted), rule.limit);
+  const float gap = hole ? rule.hole_gap : off;
+  const float weight = hole ? reference_cos * rule.hole_weight : reference_cos;
+  return {covers ? aside : 0.0f, covers ? 1.0f : 0.0f, weight * gap, weight};
+}
+
+/// r_i of Eq. 1.
+RP_HD float areaFactor(AreaFactor form, float area_px, float max_area_px) {
+  const float ratio = max_area_px / (area_px < 1.0f ? 1.0f : area_px);
+  switch (form) {
+    case AreaFactor::kNone:
+      return 1.0f;
+    case AreaFactor::kIntended:
+      return ratio;
+    case AreaFactor::kRoot:
+      return std::sqrt(ratio);
+    case AreaFactor::kAsPrinted:
+      return 1.0f / ratio;
   }
-  if (reference_cos > 0.0f) {
-    float gap = scene_range - predicted;
-    if (gap < 0.0f) gap = -gap;
-    if (gap > range_limit) gap = range_limit;
-    float weight = reference_cos;
-    if (scene_range == 0.0f) {
-      if (holes == HolePolicy::kPaper) gap = 0.0f;
-      if (holes == HolePolicy::kIgnore) weight = 0.0f;
-      if (holes == HolePolicy::kLimit) gap = range_limit;
-    }
-    terms.range_sum = weight * gap;
-    terms.range_weight = weight;
-  }
-  return terms;
+  return 1.0f;
 }
 
 /// Eq. 1 from the sums; `area_factor` is r_i.

@@ -28,29 +28,9 @@ void ErrorOptions::check() const {
            "range_limit_px must be finite where holes count as much as it");
 }
 
-float areaFactor(AreaFactor form, float area_px, float max_area_px) {
-  const float ratio = max_area_px / std::max(area_px, 1.0f);
-  switch (form) {
-    case AreaFactor::kNone:
-      return 1.0f;
-    case AreaFactor::kIntended:
-      return ratio;
-    case AreaFactor::kRoot:
-      return std::sqrt(ratio);
-    case AreaFactor::kAsPrinted:
-      return 1.0f / ratio;
-  }
-  return 1.0f;
-}
-
 glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px) {
   const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
-  const float size = static_cast<float>(object.size);
-  // Window pixel of the anchor: u + margin + x must be the window's centre pixel, margin + size
-  // / 2.
-  return {0.5f * size - reference.anchor_px.x,
-          0.5f * size - reference.anchor_px.y,
-          seed_range_px - (reference.anchor_px.z - size)};
+  return startTranslation(reference.anchor_px, object.size, seed_range_px);
 }
 
 }  // namespace rangepose

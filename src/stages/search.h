@@ -37,12 +37,17 @@ struct Hypothesis {
 /// pixels that are read outside of the window count as background.
 RP_HD float maxShiftPx(int size) { return 0.75f * static_cast<float>(size); }
 
-/// r_i of Eq. 1.
-float areaFactor(AreaFactor form, float area_px, float max_area_px);
-
 /// Where the simplex of a view starts: the view's anchor (its own most inner pixel) is laid on the
 /// window's centre at the seed's range. Differs from the paper: it lays the middle of the tile
 /// there, which for a bent part may be a hole.
+RP_HD glm::vec3 startTranslation(const glm::vec3& anchor_px, int size, float seed_range_px) {
+  // Window pixel of the anchor: u + margin + x must be the window's centre pixel, margin + size
+  // / 2.
+  const float width = static_cast<float>(size);
+  return {0.5f * width - anchor_px.x,
+          0.5f * width - anchor_px.y,
+          seed_range_px - (anchor_px.z - width)};
+}
 glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px);
 
 }  // namespace rangepose

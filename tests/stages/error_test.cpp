@@ -143,7 +143,7 @@ TEST(ErrorTest, ValueIsEquationOne) {
 
 TEST(ErrorTest, OnePixelOfEachKind) {
   const auto pixel = [](float distance, float cosine, float seen, HolePolicy holes) {
-    return errorOfPixel(distance, cosine, 100.0f, 2.0f, seen, 8.0f, holes);
+    return errorOfPixel(distance, cosine, 100.0f, 2.0f, seen, rangeRule(8.0f, holes));
   };
   for (const HolePolicy holes : kPolicies) {
     const ErrorTerms same = pixel(5.0f, 0.5f, 103.0f, holes);

@@ -57,6 +57,10 @@ if(RANGEPOSE_HAS_CUDA)
     set(CMAKE_CUDA_ARCHITECTURES ${RANGEPOSE_CUDA_LISTED} CACHE STRING "CUDA architectures")
   endif()
   enable_language(CUDA)
+  # CMake 3.25 does not know that nvcc has this since version 12.
+  if(NOT CMAKE_CUDA20_STANDARD_COMPILE_OPTION)
+    set(CMAKE_CUDA20_STANDARD_COMPILE_OPTION -std=c++20)
+  endif()
   # After the language: the test of the compiler does not know the standards yet.
   set(CMAKE_CUDA_STANDARD 20)
   set(CMAKE_CUDA_STANDARD_REQUIRED ON)
