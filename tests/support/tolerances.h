@@ -16,6 +16,12 @@ inline constexpr float kTurnedShare = 0.05f;
 /// rounded on the host and on software rasterisers; GLSL allows 2.5 ulp for a division.
 inline constexpr int kDeviceUlps = 4;
 
+/// Farthest corner of an aligned part between two orders of the same sums in double [mm]: 1e-12 a
+/// step, unless a point finds another partner for it.
+inline constexpr double kAlignedMm = 1.0e-6;
+/// Shares, scores and residuals [mm] of a verdict: sums of a few thousand doubles in another order.
+inline constexpr double kVerdict = 1.0e-12;
+
 /// Depth of a rendered face [mm] at 500-700 mm: GL interpolates in float and moves corners to 1/256
 /// px.
 inline constexpr float kSurfaceDepthMm = 0.05f;

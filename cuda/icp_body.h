@@ -1,0 +1,89 @@
+// Alignment of one pose by one block: all iterations, the sums over the points in a fixed order,
+// the 6x6 system solved by the leader (paper Sect. 7). Contract in src/stages/icp_host.h; see
+// block.h.
+#pragma once
+
+#include "cuda/block.h"
+#include "stages/icp_core.h"
+#include "stages/icp_host.h"
+
+namespace rangepose::cuda {
+
+/// A pose to be aligned. Its points lie one after the other in an array of all points.
+struct IcpTask {
+  int first_point = 0;
+  int point_count = 0;
+  Pose start;                 ///< camera_from_object
+  glm::dvec3 center_mm{0.0};  ///< of the object's sphere, in its frame
+  double radius_mm = 1.0;     ///< of that sphere
+  IcpOptions options;
+  double shrink = 1.0;  ///< icpShrink(options)
+};
+
+/// Sums over the points: nothing but doubles, see HostBlock::sum.
+struct PointSums {
+  IcpSums icp;
+  double pairs;
+};
+
+/// Shared by the threads of a block; the leader changes it.
+struct IcpShared {
+  IcpFrame frame;
+  IcpResult result;
+  bool done;
+};
+
+/// The leader's end of an iteration.
+RP_BODY void endIteration(const IcpTask& task, const PointSums& sums, IcpShared& shared) {
+  IcpResult& result = shared.result;
+  IcpFrame& frame = shared.frame;
+  ++result.iterations;
+  result.paired = task.point_count > 0 ? sums.pairs / static_cast<double>(task.point_count) : 0.0;
+  shared.done = true;
+  if (sums.pairs < kFewestPairs) return;
+  result.rms_mm = icpRms(sums.icp, task.radius_mm);
+  if (!icpMove(result.camera_from_object, sums.icp, frame, task.center_mm)) return;
+  frame.pose = result.camera_from_object;
+  frame.center_mm = frame.pose * task.center_mm;
+  frame.reach_mm *= task.shrink;
+  shared.done = result.iterations >= task.options.iterations;
+}
+
+/// `points` are those of all tasks.
+template <typename Block, typename Read>
+RP_BODY void alignPose(Block& block,
+                       IcpShared& shared,
+                       const IcpTask& task,
+                       const DepthReader<Read>& scene,
+                       const SurfacePoint* points,
+                       IcpResult& answer) {
+  block.leader([&] {
+    shared.result = {task.start, 0.0, 0.0, 0};
+    shared.frame = {task.start,
+                    task.start * task.center_mm,
+                    task.radius_mm,
+                    task.options.first_reach_mm,
+                    task.options.search_steps,
+                    task.options.slide};
+    shared.done = false;
+  });
+  block.barrier();
+  while (!shared.done) {
+    typename Block::template PerThread<PointSums> sums;
+    block.forEachThread([&](int thread) {
+      PointSums own{};
+      for (int i = thread; i < task.point_count; i += Block::kThreads) {
+        const SurfacePoint& point = points[task.first_point + i];
+        if (addPoint(own.icp, shared.frame, scene, point.position_mm, point.normal)) {
+          own.pairs += 1.0;
+        }
+      }
+      sums[thread] = own;
+    });
+    block.template sum<double>(sums,
+                               [&](const PointSums& all) { endIteration(task, all, shared); });
+  }
+  block.leader([&] { answer = shared.result; });
+}
+
+}  // namespace rangepose::cuda

@@ -1,0 +1,113 @@
+#include "cuda/check.h"
+#include "cuda/refine.h"
+
+namespace rangepose::cuda {
+namespace {
+
+constexpr int kFewThreads = 64;    ///< for the first rounds: many poses with few points
+constexpr int kManyThreads = 256;  ///< for the last rounds: few poses with many points
+constexpr int kSurfaceThreads = 256;
+
+/// Reads a depth image in memory.
+struct DepthAt {
+  const float* depth_mm;
+  int width;
+  __device__ float operator()(int u, int v) const { return __ldg(depth_mm + v * width + u); }
+};
+
+/// Memory for a type whose constructor must not run for each thread.
+template <typename T>
+struct Storage {
+  alignas(T) unsigned char bytes[sizeof(T)];
+  __device__ T& get() { return *reinterpret_cast<T*>(bytes); }
+};
+
+template <int kThreads>
+__global__ __launch_bounds__(kThreads) void alignKernel(const __grid_constant__ ResidentImage scene,
+                                                        const IcpTask* __restrict__ tasks,
+                                                        const SurfacePoint* __restrict__ points,
+                                                        IcpResult* __restrict__ results) {
+  __shared__ Storage<IcpShared> shared;
+  const DepthAt read{scene.depth_mm, scene.camera.width};
+  const DepthReader<DepthAt> reader{scene.camera, scene.camera.width, scene.camera.height, read};
+  DeviceBlock<kThreads> block;
+  alignPose(block, shared.get(), tasks[blockIdx.x], reader, points, results[blockIdx.x]);
+}
+
+__global__ __launch_bounds__(kFewThreads) void judgePointsKernel(
+    const __grid_constant__ ResidentImage depth,
+    const PointsTask* __restrict__ tasks,
+    const SurfacePoint* __restrict__ points,
+    CheckResult* __restrict__ results) {
+  DeviceBlock<kFewThreads> block;
+  judgeTaskPoints(block,
+                  tasks[blockIdx.x],
+                  depth.camera,
+                  DepthAt{depth.depth_mm, depth.camera.width},
+                  points,
+                  results[blockIdx.x]);
+}
+
+__global__ __launch_bounds__(kSurfaceThreads) void judgeSurfacesKernel(
+    const __grid_constant__ ResidentImage depth,
+    const SurfaceTask* __restrict__ tasks,
+    CheckResult* __restrict__ results) {
+  const SurfaceTask& task = tasks[blockIdx.x];
+  const auto surface = [&](int x, int y) {
+    const float4 t = tex2D<float4>(
+        task.surface.texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    return SurfaceTexel(t.x, t.y, t.z, t.w);
+  };
+  DeviceBlock<kSurfaceThreads> block;
+  judgeRendered(block,
+                surface,
+                task.window,
+                task.options,
+                depth.camera,
+                DepthAt{depth.depth_mm, depth.camera.width},
+                results[blockIdx.x]);
+}
+
+}  // namespace
+
+void align(const ResidentImage& scene,
+           const IcpTask* tasks,
+           int task_count,
+           int most_points,
+           const SurfacePoint* points,
+           IcpResult* results,
+           cudaStream_t stream) {
+  if (task_count == 0) return;
+  const unsigned blocks = static_cast<unsigned>(task_count);
+  if (most_points <= kFewThreads) {
+    alignKernel<kFewThreads><<<blocks, kFewThreads, 0, stream>>>(scene, tasks, points, results);
+  } else {
+    alignKernel<kManyThreads><<<blocks, kManyThreads, 0, stream>>>(scene, tasks, points, results);
+  }
+  RP_LAUNCHED("alignment");
+}
+
+void judgePoints(const ResidentImage& depth,
+                 const PointsTask* tasks,
+                 int task_count,
+                 const SurfacePoint* points,
+                 CheckResult* results,
+                 cudaStream_t stream) {
+  if (task_count == 0) return;
+  judgePointsKernel<<<static_cast<unsigned>(task_count), kFewThreads, 0, stream>>>(
+      depth, tasks, points, results);
+  RP_LAUNCHED("verdict on points");
+}
+
+void judgeSurfaces(const ResidentImage& depth,
+                   const SurfaceTask* tasks,
+                   int task_count,
+                   CheckResult* results,
+                   cudaStream_t stream) {
+  if (task_count == 0) return;
+  judgeSurfacesKernel<<<static_cast<unsigned>(task_count), kSurfaceThreads, 0, stream>>>(
+      depth, tasks, results);
+  RP_LAUNCHED("verdict on surfaces");
+}
+
+}  // namespace rangepose::cuda

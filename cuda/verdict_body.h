@@ -1,0 +1,73 @@
+// The verdict on one pose by one block of threads. Contract in src/stages/check_host.h; see
+// block.h.
+#pragma once
+
+#include "cuda/block.h"
+#include "stages/check_core.h"
+#include "stages/surface_points.h"
+
+namespace rangepose::cuda {
+
+/// Points of a posed object. They lie one after the other in an array of all points.
+struct PointsTask {
+  int first_point = 0;
+  int point_count = 0;
+  Pose camera_from_object;
+  double visible_mm2 = 0.0;  ///< area that the points stand for [mm^2]
+  CheckOptions options;
+};
+
+/// `points` are those of all tasks; `read(u, v)` reads the depth image [mm].
+template <typename Block, typename Read>
+RP_BODY void judgeTaskPoints(Block& block,
+                             const PointsTask& task,
+                             const Camera& camera,
+                             const Read& read,
+                             const SurfacePoint* points,
+                             CheckResult& answer) {
+  const Measured<Read> measured{camera, task.options.tolerance_mm, read};
+  const CheckRules rules = checkRules(task.options, kPointNormalReach);
+  typename Block::template PerThread<CheckTally> tallies;
+  block.forEachThread([&](int thread) {
+    CheckTally tally;
+    for (int i = thread; i < task.point_count; i += Block::kThreads) {
+      const SurfacePoint& point = points[task.first_point + i];
+      judgePoint(point.position_mm, point.normal, task.camera_from_object, measured, rules, tally);
+    }
+    tallies[thread] = tally;
+  });
+  block.template sum<double>(tallies, [&](const CheckTally& tally) {
+    answer = summarizeCheck(tally, task.options, 1.0, task.visible_mm2);
+  });
+}
+
+/// `surface(x, y)` reads a texel of the rendered surface, inside of its window.
+template <typename Block, typename Surface, typename Read>
+RP_BODY void judgeRendered(Block& block,
+                           const Surface& surface,
+                           const SurfaceWindow& window,
+                           const CheckOptions& options,
+                           const Camera& camera,
+                           const Read& read,
+                           CheckResult& answer) {
+  const Measured<Read> measured{camera, options.tolerance_mm, read};
+  const CheckRules rules = checkRules(options, window.step > 2 ? window.step : 2);
+  const auto depth_at = [&](int x, int y) {
+    const bool inside = x >= 0 && y >= 0 && x < window.width && y < window.height;
+    return inside ? surface(x, y).w : 0.0f;
+  };
+  typename Block::template PerThread<CheckTally> tallies;
+  block.forEachThread([&](int thread) {
+    CheckTally tally;
+    for (int i = thread; i < window.width * window.height; i += Block::kThreads) {
+      const int x = i % window.width;
+      const int y = i / window.width;
+      judgeSurfacePixel(surface(x, y), depth_at, window, measured, x, y, rules, tally);
+    }
+    tallies[thread] = tally;
+  });
+  block.template sum<double>(
+      tallies, [&](const CheckTally& tally) { answer = surfaceVerdict(tally, options); });
+}
+
+}  // namespace rangepose::cuda
