@@ -18,7 +18,7 @@
 namespace rangepose::cuda {
 namespace {
 
-constexpr int kThreads = 256;
+constexpr int kThreads = kSearchThreads;
 constexpr int kRankThreads = 256;
 using Block = DeviceBlock<kThreads>;
 
@@ -111,11 +111,11 @@ void search(const ResidentObject& object,
             cudaStream_t stream) {
   RP_CHECK(setup.views == object.views(), "the setup belongs to another object");
   if (setup.views == 0 || window_count == 0) return;
-  const int most = object.mostPixels();
-  const auto launch = most <= 3 * kThreads    ? launchSearch<3>
-                      : most <= 6 * kThreads  ? launchSearch<6>
-                      : most <= 12 * kThreads ? launchSearch<12>
-                                              : launchSearch<0>;
+  const int slots = searchSlots(object.mostPixels());
+  const auto launch = slots == 3    ? launchSearch<3>
+                      : slots == 6  ? launchSearch<6>
+                      : slots == 12 ? launchSearch<12>
+                                    : launchSearch<0>;
   launch(object, setup, windows, seed_range_px, window_count, answers, stream);
 }
 

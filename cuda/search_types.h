@@ -43,6 +43,18 @@ struct WindowFrame {
   RP_HD int texels() const { return stride() * stride(); }
 };
 
+/// Threads of a block of the fused search.
+inline constexpr int kSearchThreads = 256;
+
+/// Pixels that each thread keeps in registers in a search of views of at most `most_pixels`: 3, 6
+/// or 12; 0 where they do not fit and are read again at each evaluation.
+RP_HD int searchSlots(int most_pixels) {
+  for (const int slots : {3, 6, 12}) {
+    if (most_pixels <= slots * kSearchThreads) return slots;
+  }
+  return 0;
+}
+
 /// For windows of `width` pixels and tiles of `size`.
 RP_HD WindowFrame windowFrame(int width, int size) {
   // The same margin as PaddedWindow of the host and the shaders.

@@ -11,8 +11,8 @@
 namespace rangepose {
 namespace {
 
+using cuda::kSearchThreads;
 using test::FusedInput;
-constexpr int kThreads = 256;
 
 void expectNear(const ErrorTerms& actual, const ErrorTerms& expected, const std::string& where) {
   const auto close = [&](float a, float b) {
@@ -77,7 +77,7 @@ TEST(SearchBodyTest, SumsAreThoseOfTheHost) {
       const FusedInput in(object, window, options);
       const std::vector<ErrorTerms> expected =
           host::errorTerms(object, host::PackedViews(object), window, at, options.error);
-      const std::vector<ErrorTerms> actual = test::termsOnHost<0, kThreads>(in, at);
+      const std::vector<ErrorTerms> actual = test::termsOnHost<0, kSearchThreads>(in, at);
       int outside = 0;
       for (std::size_t i = 0; i < expected.size(); ++i) {
         if (expected[i].cover_count == 0.0f) {
@@ -99,11 +99,11 @@ TEST(SearchBodyTest, WherePixelsAreKeptChangesNoBit) {
   const ReferenceObject object = test::renderedBracket(12, 64, 21);
   const SceneChannels window = test::windowWith(object, 4, 3);
   const FusedInput in(object, window, {});
-  ASSERT_LE(in.views.most_pixels, 6 * kThreads) << "the slots must hold the views";
+  ASSERT_LE(in.views.most_pixels, 6 * kSearchThreads) << "the slots must hold the views";
   const std::vector<glm::vec3> at = test::scatteredTranslations(object, 6);
-  const std::vector<ErrorTerms> memory = test::termsOnHost<0, kThreads>(in, at);
-  const std::vector<ErrorTerms> six = test::termsOnHost<6, kThreads>(in, at);
-  const std::vector<ErrorTerms> twelve = test::termsOnHost<12, kThreads>(in, at);
+  const std::vector<ErrorTerms> memory = test::termsOnHost<0, kSearchThreads>(in, at);
+  const std::vector<ErrorTerms> six = test::termsOnHost<6, kSearchThreads>(in, at);
+  const std::vector<ErrorTerms> twelve = test::termsOnHost<12, kSearchThreads>(in, at);
   for (std::size_t i = 0; i < at.size(); ++i) {
     EXPECT_EQ(memory[i].cover_sum, six[i].cover_sum);
     EXPECT_EQ(memory[i].range_sum, six[i].range_sum);
@@ -118,9 +118,9 @@ void compareSearches(const ReferenceObject& object, int shown, const SearchOptio
   const FusedInput in(object, window, options);
   const std::vector<Hypothesis> expected = host::search(
       object, host::PackedViews(object), {&window}, {test::seedRange(window)}, options);
-  const std::vector<Hypothesis> actual = in.views.most_pixels <= 6 * kThreads
-                                             ? test::fusedOnHost<6, kThreads>(in)
-                                             : test::fusedOnHost<0, kThreads>(in);
+  const std::vector<Hypothesis> actual = in.views.most_pixels <= 6 * kSearchThreads
+                                             ? test::fusedOnHost<6, kSearchThreads>(in)
+                                             : test::fusedOnHost<0, kSearchThreads>(in);
   ASSERT_EQ(actual.size(), expected.size());
   const auto before = [](const Hypothesis& a, const Hypothesis& b) { return a.error < b.error; };
   const Hypothesis& best = *std::min_element(actual.begin(), actual.end(), before);
@@ -159,7 +159,7 @@ TEST(SearchBodyTest, AnEmptyViewIsTheWorst) {
   object.views[1].area_px = 0.0f;
   const SceneChannels window = test::windowWith(object, 2, 40);
   const std::vector<Hypothesis> found =
-      test::fusedOnHost<6, kThreads>(FusedInput(object, window, {}));
+      test::fusedOnHost<6, kSearchThreads>(FusedInput(object, window, {}));
   EXPECT_EQ(found[1].error, kWorstError);
   EXPECT_LT(found[2].error, 5.0f);
 }
