@@ -54,6 +54,10 @@ struct Path {
   std::string interop_note;          ///< one line: the renderer, and why others were passed over
 };
 
+/// A GLES context for rendering beside CUDA, on the same GPU if EGL has that. Throws Unavailable
+/// where CUDA or GLES is missing.
+std::unique_ptr<gles::Context> openContextOfDevice();
+
 /// On the current CUDA device. Throws Unavailable, naming what is missing: the path was not built,
 /// there is no driver or device, or the interop that was asked for does not work here.
 Path openPath(const PathOptions& options = {});

@@ -12,6 +12,10 @@ Status status() {
   return result;
 }
 
+std::unique_ptr<gles::Context> openContextOfDevice() {
+  throw Unavailable("path cuda: " + status().missing);
+}
+
 Path openPath(const PathOptions&) { throw Unavailable("path cuda: " + status().missing); }
 
 }  // namespace rangepose::cuda

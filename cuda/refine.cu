@@ -54,8 +54,9 @@ __global__ __launch_bounds__(kSurfaceThreads) void judgeSurfacesKernel(
     CheckResult* __restrict__ results) {
   const SurfaceTask& task = tasks[blockIdx.x];
   const auto surface = [&](int x, int y) {
-    const float4 t = tex2D<float4>(
-        task.surface.texture, static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
+    const float4 t = tex2D<float4>(task.surface.texture,
+                                   static_cast<float>(task.column + x) + 0.5f,
+                                   static_cast<float>(task.row + y) + 0.5f);
     return SurfaceTexel(t.x, t.y, t.z, t.w);
   };
   DeviceBlock<kSurfaceThreads> block;

@@ -38,9 +38,11 @@ void judgePoints(const ResidentImage& depth,
 
 /// A rendered surface (float4, as SurfaceTexel) to be judged.
 struct SurfaceTask {
-  ImageView surface;  ///< window.width x window.height
+  ImageView surface;  ///< window.width x window.height from (column, row) on
   SurfaceWindow window;
   CheckOptions options;
+  int column = 0;  ///< of the window's first pixel in the image [px]
+  int row = 0;     ///< [px]
 };
 
 /// One result a task: rendered surfaces, with their outlines, against the whole depth image.

@@ -70,6 +70,11 @@ Pass& Pass::set(const char* uniform, const glm::mat3& value) {
   return *this;
 }
 
+Pass& Pass::within(const PixelBox& box) {
+  glViewport(box.x0, box.y0, box.width(), box.height());
+  return *this;
+}
+
 Pass& Pass::depthTest() {
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);

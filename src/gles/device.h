@@ -46,6 +46,8 @@ class Pass {
   Pass& set(const char* uniform, const glm::vec3& value);
   Pass& set(const char* uniform, const glm::vec4& value);
   Pass& set(const char* uniform, const glm::mat3& value);
+  /// Draws into a part of the target, as if it were a target of its own.
+  Pass& within(const PixelBox& box);
   /// Nearest wins.
   Pass& depthTest();
   /// Nothing is written; for queries.

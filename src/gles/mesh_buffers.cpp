@@ -1,6 +1,7 @@
 #include "gles/mesh_buffers.h"
 
 #include <array>
+#include <bit>
 #include <vector>
 
 namespace rangepose::gles {
@@ -33,6 +34,19 @@ Buffer upload(const std::vector<Corner>& corners, int& count) {
   return {corners.data(), corners.size() * sizeof(Corner)};
 }
 
+/// FNV-1a over the mesh.
+std::uint64_t contentHash(const Mesh& mesh) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211ULL; };
+  for (const glm::vec3& v : mesh.vertices) {
+    for (int i = 0; i < 3; ++i) mix(std::bit_cast<std::uint32_t>(v[i]));
+  }
+  for (const glm::uvec3& t : mesh.triangles) {
+    for (int i = 0; i < 3; ++i) mix(t[i]);
+  }
+  return hash;
+}
+
 }  // namespace
 
 MeshBuffers::MeshBuffers(const Mesh& mesh)
@@ -44,6 +58,13 @@ void MeshBuffers::addTo(VertexArray& vertices) const {
   constexpr int kStride = sizeof(Corner);
   vertices.add(buffer_, {0, 3, false, kStride, offsetof(Corner, position), false});
   vertices.add(buffer_, {1, 3, false, kStride, offsetof(Corner, normal), false});
+}
+
+const MeshBuffers& ResidentMeshes::of(const Mesh& mesh) {
+  const std::uint64_t key = contentHash(mesh);
+  const auto found = meshes_.find(key);
+  if (found != meshes_.end()) return found->second;
+  return meshes_.emplace(key, MeshBuffers(mesh)).first->second;
 }
 
 }  // namespace rangepose::gles

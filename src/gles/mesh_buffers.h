@@ -1,6 +1,9 @@
 // A mesh on the device: corners of its triangles with the normals of their faces.
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
+
 #include "geometry/mesh.h"
 #include "gles/buffer.h"
 
@@ -27,6 +30,16 @@ class MeshBuffers {
   int corners_ = 0;
   Buffer buffer_;
   VertexArray vertices_;
+};
+
+/// Keeps the buffers of each mesh that was asked for.
+class ResidentMeshes {
+ public:
+  /// By content, so that a changed mesh at the same address is noticed.
+  const MeshBuffers& of(const Mesh& mesh);
+
+ private:
+  std::unordered_map<std::uint64_t, MeshBuffers> meshes_;
 };
 
 }  // namespace rangepose::gles

@@ -1,6 +1,5 @@
 #include "gles/stage_set_gles.h"
 
-#include <bit>
 #include <cstdint>
 #include <unordered_map>
 #include <utility>
@@ -44,19 +43,6 @@ const GlesScene& glesScene(const ResidentScene& scene) {
   const auto* own = dynamic_cast<const GlesScene*>(&scene);
   RP_CHECK(own != nullptr, "the scene was prepared by another path than glsl");
   return *own;
-}
-
-/// FNV-1a over the mesh, so that a changed mesh at the same address is noticed.
-std::uint64_t contentHash(const Mesh& mesh) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto mix = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211ULL; };
-  for (const glm::vec3& v : mesh.vertices) {
-    for (int i = 0; i < 3; ++i) mix(std::bit_cast<std::uint32_t>(v[i]));
-  }
-  for (const glm::uvec3& t : mesh.triangles) {
-    for (int i = 0; i < 3; ++i) mix(t[i]);
-  }
-  return hash;
 }
 
 class GlesStages : public StageSet {
@@ -111,6 +97,7 @@ class GlesStages : public StageSet {
                                     const Pose& camera_from_object,
                                     const SurfaceWindow& window) override;
 
+  using StageSet::prepare;
   std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
                                          const Image<std::uint8_t>& keep,
                                          const OrthoCamera& camera,
@@ -133,12 +120,11 @@ class GlesStages : public StageSet {
     return device_;
   }
   const ResidentObject& resident(const ReferenceObject& object);
-  const MeshBuffers& resident(const Mesh& mesh);
 
   Context& context_;
   Device device_;
   std::unordered_map<const ReferenceObject*, ResidentObject> objects_;
-  std::unordered_map<std::uint64_t, MeshBuffers> meshes_;
+  ResidentMeshes meshes_;
 };
 
 const ResidentObject& GlesStages::resident(const ReferenceObject& object) {
@@ -149,13 +135,6 @@ const ResidentObject& GlesStages::resident(const ReferenceObject& object) {
     objects_.erase(found);
   }
   return objects_.emplace(&object, ResidentObject(object)).first->second;
-}
-
-const MeshBuffers& GlesStages::resident(const Mesh& mesh) {
-  const std::uint64_t key = contentHash(mesh);
-  const auto found = meshes_.find(key);
-  if (found != meshes_.end()) return found->second;
-  return meshes_.emplace(key, MeshBuffers(mesh)).first->second;
 }
 
 std::vector<ErrorTerms> GlesStages::errorTerms(const ReferenceObject& object,
@@ -176,7 +155,7 @@ Image<SurfaceTexel> GlesStages::renderSurface(const Mesh& mesh,
   if (window.width <= 0 || window.height <= 0) return {};
   Device& device = current();
   return downloadVectors(
-      gles::renderSurface(device, mesh, resident(mesh), camera, camera_from_object, window)
+      gles::renderSurface(device, mesh, meshes_.of(mesh), camera, camera_from_object, window)
           .texture);
 }
 

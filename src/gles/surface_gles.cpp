@@ -37,6 +37,7 @@ Mesh inFront(const Mesh& mesh, const Pose& camera_from_object) {
 
 void draw(Device& device,
           const Framebuffer& target,
+          const PixelBox& box,
           const MeshBuffers& buffers,
           const Camera& camera,
           const Pose& camera_from_object,
@@ -54,6 +55,7 @@ void draw(Device& device,
       .set("u_depth_range", glm::vec2(nearest, farthest))
       .set("u_window_size", glm::vec2(window.width, window.height))
       .set("u_orthographic", camera.orthographic ? 1 : 0)
+      .within(box)
       .depthTest()
       .drawTriangles(buffers.vertices(), buffers.corners(), 1);
 }
@@ -71,15 +73,27 @@ Canvas renderSurface(Device& device,
   const Framebuffer target(result.texture, &depth);
   target.clear(glm::vec4(0.0f));
   target.clearDepth();
+  const PixelBox all{0, 0, window.width, window.height};
+  renderSurface(device, target, all, mesh, buffers, camera, camera_from_object, window);
+  return result;
+}
+
+void renderSurface(Device& device,
+                   const Framebuffer& target,
+                   const PixelBox& box,
+                   const Mesh& mesh,
+                   const MeshBuffers& buffers,
+                   const Camera& camera,
+                   const Pose& camera_from_object,
+                   const SurfaceWindow& window) {
   const double nearest = (camera_from_object * buffers.center_mm()).z - buffers.radius_mm();
   if (camera.orthographic || nearest > kNearestMm) {
-    draw(device, target, buffers, camera, camera_from_object, window);
-    return result;
+    draw(device, target, box, buffers, camera, camera_from_object, window);
+    return;
   }
   const Mesh remaining = inFront(mesh, camera_from_object);
-  if (remaining.triangles.empty()) return result;
-  draw(device, target, MeshBuffers(remaining), camera, camera_from_object, window);
-  return result;
+  if (remaining.triangles.empty()) return;
+  draw(device, target, box, MeshBuffers(remaining), camera, camera_from_object, window);
 }
 
 }  // namespace rangepose::gles

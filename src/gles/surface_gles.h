@@ -15,4 +15,15 @@ Canvas renderSurface(Device& device,
                      const Pose& camera_from_object,
                      const SurfaceWindow& window);
 
+/// The same into a part of a target with a depth buffer, which the caller has cleared. `box` is as
+/// large as the window.
+void renderSurface(Device& device,
+                   const Framebuffer& target,
+                   const PixelBox& box,
+                   const Mesh& mesh,
+                   const MeshBuffers& buffers,
+                   const Camera& camera,
+                   const Pose& camera_from_object,
+                   const SurfaceWindow& window);
+
 }  // namespace rangepose::gles

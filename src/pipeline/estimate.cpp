@@ -15,16 +15,6 @@ namespace {
 /// coarsely to find starts, never for the search itself.
 constexpr int kMaxScenePx = 1024;
 
-Image<float> masked(const DepthImage& depth, const Image<std::uint8_t>& mask) {
-  Image<float> result(mask.width(), mask.height(), 0.0f);
-  std::transform(mask.begin(),
-                 mask.end(),
-                 depth.depth_mm.begin(),
-                 result.begin(),
-                 [](std::uint8_t kept, float mm) { return kept != 0 ? mm : 0.0f; });
-  return result;
-}
-
 double largestDiameter(const ReferenceDatabase& database) {
   double largest = 0.0;
   for (const ReferenceObject& object : database.objects)
@@ -59,15 +49,15 @@ class Estimator {
 
   /// Sect. 5 to 7 on what is left of the foreground.
   std::vector<Candidate> onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
-    const Image<float> foreground_mm = masked(depth_, foreground);
-    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground_mm);
+    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
     const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
-      const std::vector<glm::dvec3> starts = findStarts(object, foreground, object_trace);
-      const Windows windows = cutWindows(object, foreground, starts, object_trace);
+      const std::vector<glm::dvec3> starts =
+          findStarts(object, foreground, *resident, object_trace);
+      const Windows windows = cutWindows(object, *resident, starts, object_trace);
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
@@ -95,6 +85,7 @@ class Estimator {
   /// The start points, in the camera frame [mm].
   std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
                                      const Image<std::uint8_t>& foreground,
+                                     const ResidentDepth& resident,
                                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
     const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
@@ -103,7 +94,7 @@ class Estimator {
     ChannelOptions channel_options = channelOptionsOf(object);
     channel_options.edt_passes = 2 * object.edt_passes + 1;
     const std::unique_ptr<ResidentScene> scene =
-        stages_.prepare(depth_, foreground, camera, {}, channel_options);
+        stages_.prepare(resident, camera, {}, channel_options);
     const SceneChannels channels = scene->download();
     const Image<std::int32_t> labels = stages_.patches(*scene);
     const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
@@ -135,7 +126,7 @@ class Estimator {
   }
 
   Windows cutWindows(const ReferenceObject& object,
-                     const Image<std::uint8_t>& foreground,
+                     const ResidentDepth& resident,
                      const std::vector<glm::dvec3>& starts,
                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "windows");
@@ -144,8 +135,7 @@ class Estimator {
     for (const glm::dvec3& point : starts) {
       const OrthoCamera camera = windowCamera(depth_.camera, point, width, object.pixel_mm);
       const PixelBox region = windowRegion(depth_.camera, point, width, object.pixel_mm);
-      windows.scenes.push_back(
-          stages_.prepare(depth_, foreground, camera, region, channelOptionsOf(object)));
+      windows.scenes.push_back(stages_.prepare(resident, camera, region, channelOptionsOf(object)));
       windows.cameras.push_back(camera);
       const glm::dvec3 in_window = camera.camera_from_ortho.inverse() * point;
       windows.seed_range_px.push_back(static_cast<float>(in_window.z / object.pixel_mm));

@@ -1,6 +1,7 @@
 #include "pipeline/path_choice.h"
 
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "gles/stage_set_gles.h"
@@ -20,7 +21,7 @@ std::unique_ptr<gles::Context> openContext(PathRequest request, bool hardware_on
     case PathRequest::kHost:
       return nullptr;
     case PathRequest::kCuda:
-      throw Unavailable("path cuda: not built into this program; use --path auto, glsl or host");
+      return cuda::openContextOfDevice();
     case PathRequest::kGlsl:
       return std::make_unique<gles::Context>();
     case PathRequest::kAuto:
@@ -35,7 +36,20 @@ std::unique_ptr<gles::Context> openContext(PathRequest request, bool hardware_on
   }
 }
 
-PathStages openPath(PathRequest request) {
+namespace {
+
+PathStages openCuda(const cuda::PathOptions& options) {
+  cuda::Path path = cuda::openPath(options);
+  return {std::move(path.context), std::move(path.stages)};
+}
+
+}  // namespace
+
+PathStages openPath(PathRequest request, const cuda::PathOptions& cuda_options) {
+  if (request == PathRequest::kCuda) return openCuda(cuda_options);
+  if (request == PathRequest::kAuto && cuda::status().missing.empty()) {
+    return openCuda(cuda_options);
+  }
   PathStages path;
   path.context = openContext(request, true);
   path.stages = path.context != nullptr ? gles::makeGlesStages(*path.context) : makeHostStages();

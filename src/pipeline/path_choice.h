@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <string_view>
 
+#include "cuda/cuda_path.h"
 #include "gles/context.h"
 #include "stages/stage_set.h"
 
@@ -16,17 +18,18 @@ PathRequest parsePathRequest(std::string_view text);
 
 /// The stages of a path with what they run on.
 struct PathStages {
-  std::unique_ptr<gles::Context> context;  ///< of the glsl path; outlives the stages
+  std::unique_ptr<gles::Context> context;  ///< of the glsl and cuda paths; outlives the stages
   std::unique_ptr<StageSet> stages;
 };
 
-/// kAuto takes glsl on a hardware GPU, else host: on a software rasteriser a full search in
-/// fragment shaders is 50 to 100 times slower than the host path. Throws Unavailable when the path
-/// that was asked for does not work here.
-PathStages openPath(PathRequest request);
+/// kAuto takes cuda where it works, else glsl on a hardware GPU, else host: on a software
+/// rasteriser a full search in fragment shaders is 50 to 100 times slower than the host path.
+/// Throws Unavailable when the path that was asked for does not work here.
+PathStages openPath(PathRequest request, const cuda::PathOptions& cuda_options = {});
 
 /// A context where this machine has one; null (kAuto only) or Unavailable where it has none. With
-/// `hardware_only` kAuto passes over software rasterisers. kHost gives null.
+/// `hardware_only` kAuto passes over software rasterisers. kHost gives null; kCuda gives one only
+/// where there is CUDA, on its device if that has one.
 std::unique_ptr<gles::Context> openContext(PathRequest request, bool hardware_only);
 
 }  // namespace rangepose

@@ -31,11 +31,16 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
-/// Mean area of the views of each object [mm^2].
-std::vector<double> meanVisibleAreas(const ReferenceDatabase& database) {
-  std::vector<double> areas;
-  for (const ReferenceObject& object : database.objects) areas.push_back(meanVisibleArea(object));
-  return areas;
+void setVerdicts(std::vector<Candidate>& candidates,
+                 const std::vector<CheckResult>& verdicts,
+                 const ReferenceDatabase& database) {
+  std::vector<double> mean_mm2;
+  for (const ReferenceObject& object : database.objects)
+    mean_mm2.push_back(meanVisibleArea(object));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const auto object = static_cast<std::size_t>(candidates[i].object);
+    setVerdict(candidates[i], verdicts[i], mean_mm2[object]);
+  }
 }
 
 /// One round of alignment with the points of the candidates' own views.
@@ -85,12 +90,7 @@ void alignWithViews(std::vector<Candidate>& candidates,
                      visibleArea(object, candidates[i].view),
                      checkOptionsFor(object, scene.noise_mm)});
   }
-  const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
-  const std::vector<double> mean_mm2 = meanVisibleAreas(database);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    setVerdict(
-        candidates[i], verdicts[i], mean_mm2[static_cast<std::size_t>(candidates[i].object)]);
-  }
+  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database);
 }
 
 }  // namespace
@@ -117,31 +117,22 @@ struct FineRounds {
 };
 
 /// What the camera would see of a posed candidate.
-struct Rendered {
-  SurfaceWindow window;
-  Image<SurfaceTexel> surface;
-};
-
-Rendered render(const Candidate& candidate,
-                const ReferenceObject& object,
-                const RefineScene& scene) {
+RenderTask surfaceOf(const Candidate& candidate,
+                     const ReferenceObject& object,
+                     const RefineScene& scene) {
   constexpr int kRenderPx = 112;
-  const Camera& camera = scene.depth.camera;
-  const SurfaceWindow window =
-      wholeWindowAround(camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
-  return {window, scene.stages.renderSurface(object.mesh, camera, candidate.pose, window)};
+  RenderTask task;
+  task.mesh = &object.mesh;
+  task.camera_from_object = candidate.pose;
+  task.window = wholeWindowAround(
+      scene.depth.camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+  task.center_mm = object.center_mm;
+  task.radius_mm = object.radius_mm;
+  task.check = checkOptionsFor(object, scene.noise_mm);
+  return task;
 }
 
-/// On all cores where the path may be called from several threads, else one after the other.
-template <typename Work>
-void forEachCandidate(std::size_t count, StageSet& stages, const Work& work) {
-  const int whole = std::max(static_cast<int>(count), 1);
-  parallelFor(static_cast<int>(count), stages.concurrent() ? 1 : whole, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) work(static_cast<std::size_t>(i));
-  });
-}
-
-/// Renders the candidates that move, aligns what is visible, and gives those that moved still.
+/// Aligns what is visible of the candidates that move, and gives those that moved still.
 std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const std::vector<std::size_t>& moving,
                                        const ReferenceDatabase& database,
@@ -151,25 +142,15 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   constexpr int kFineIterations = 12;
   // A pose that moves by less has come to rest [share of the diameter].
   constexpr double kStill = 1e-4;
-  Points points(moving.size());
-  forEachCandidate(moving.size(), scene.stages, [&](std::size_t i) {
-    const Candidate& candidate = candidates[moving[i]];
-    const Rendered seen = render(candidate, objectOf(candidate, database), scene);
-    points[i] =
-        pointsOfSurface(seen.surface, scene.depth.camera, seen.window, candidate.pose, kFinePoints);
-  });
-  std::vector<AlignTask> tasks;
-  for (std::size_t i = 0; i < moving.size(); ++i) {
-    const Candidate& candidate = candidates[moving[i]];
-    const ReferenceObject& object = objectOf(candidate, database);
+  std::vector<RenderTask> tasks;
+  for (const std::size_t i : moving) {
+    const ReferenceObject& object = objectOf(candidates[i], database);
     const double tolerance = toleranceFor(object, scene.noise_mm);
-    tasks.push_back({&points[i],
-                     candidate.pose,
-                     object.center_mm,
-                     object.radius_mm,
-                     icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations)});
+    RenderTask& task = tasks.emplace_back(surfaceOf(candidates[i], object, scene));
+    task.max_points = kFinePoints;
+    task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
   }
-  const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, tasks);
+  const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
   std::vector<std::size_t> still_moving;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     Candidate& candidate = candidates[moving[i]];
@@ -192,16 +173,11 @@ void refineAll(std::vector<Candidate>& candidates,
     const double reach = round == 0 ? fine.first_reach : kLaterReach;
     moving = alignSurfaces(candidates, moving, database, scene, reach);
   }
-  const std::vector<double> mean_mm2 = meanVisibleAreas(database);
-  forEachCandidate(candidates.size(), scene.stages, [&](std::size_t i) {
-    Candidate& candidate = candidates[i];
-    const ReferenceObject& object = objectOf(candidate, database);
-    const Rendered seen = render(candidate, object, scene);
-    setVerdict(candidate,
-               host::check(
-                   seen.surface, seen.window, scene.depth, checkOptionsFor(object, scene.noise_mm)),
-               mean_mm2[static_cast<std::size_t>(candidate.object)]);
-  });
+  std::vector<RenderTask> tasks;
+  for (const Candidate& candidate : candidates) {
+    tasks.push_back(surfaceOf(candidate, objectOf(candidate, database), scene));
+  }
+  setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database);
 }
 
 }  // namespace

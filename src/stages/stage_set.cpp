@@ -1,5 +1,7 @@
 #include "stages/stage_set.h"
 
+#include <algorithm>
+
 #include "core/parallel.h"
 
 namespace rangepose {
@@ -8,13 +10,26 @@ namespace {
 /// Some ten microseconds of work a piece, at least.
 constexpr int kAlignmentsPerPiece = 1;
 constexpr int kVerdictsPerPiece = 64;
+constexpr int kSurfacesPerPiece = 1;
+
+Image<float> masked(const DepthImage& depth, const Image<std::uint8_t>& keep) {
+  if (keep.empty()) return depth.depth_mm;
+  Image<float> result(keep.width(), keep.height(), 0.0f);
+  std::transform(keep.begin(),
+                 keep.end(),
+                 depth.depth_mm.begin(),
+                 result.begin(),
+                 [](std::uint8_t kept, float mm) { return kept != 0 ? mm : 0.0f; });
+  return result;
+}
 
 class HostDepth : public ResidentDepth {
  public:
-  HostDepth(const DepthImage& image, const Image<float>& without_background)
-      : depth(image), foreground_mm(without_background) {}
+  HostDepth(const DepthImage& image, const Image<std::uint8_t>& kept)
+      : depth(image), keep(kept), foreground_mm(masked(image, kept)) {}
   const DepthImage& depth;
-  const Image<float>& foreground_mm;
+  const Image<std::uint8_t>& keep;
+  const Image<float> foreground_mm;
 };
 
 /// `result[i] = make(tasks[i])` on all cores.
@@ -32,8 +47,16 @@ std::vector<Result> forEachTask(const std::vector<Task>& tasks, int grain, const
 }  // namespace
 
 std::unique_ptr<ResidentDepth> StageSet::uploadDepth(const DepthImage& depth,
-                                                     const Image<float>& foreground_mm) {
-  return std::make_unique<HostDepth>(depth, foreground_mm);
+                                                     const Image<std::uint8_t>& keep) {
+  return std::make_unique<HostDepth>(depth, keep);
+}
+
+std::unique_ptr<ResidentScene> StageSet::prepare(const ResidentDepth& depth,
+                                                 const OrthoCamera& camera,
+                                                 const PixelBox& region,
+                                                 const ChannelOptions& options) {
+  const auto& own = static_cast<const HostDepth&>(depth);
+  return prepare(own.depth, own.keep, camera, region, options);
 }
 
 std::vector<IcpResult> StageSet::align(const ResidentDepth& depth,
@@ -57,6 +80,40 @@ std::vector<CheckResult> StageSet::judge(const ResidentDepth& depth,
     return host::checkPoints(
         *task.points, task.camera_from_object, task.visible_mm2, own.depth, task.options);
   });
+}
+
+std::vector<IcpResult> StageSet::alignSurfaces(const ResidentDepth& depth,
+                                               const std::vector<RenderTask>& tasks) {
+  const auto& own = static_cast<const HostDepth&>(depth);
+  const auto render = [&](const RenderTask& task) {
+    const Camera& camera = own.depth.camera;
+    const Image<SurfaceTexel> surface =
+        renderSurface(*task.mesh, camera, task.camera_from_object, task.window);
+    return pointsOfSurface(surface, camera, task.window, task.camera_from_object, task.max_points);
+  };
+  // One after the other where the path belongs to one thread.
+  const int together = std::max(static_cast<int>(tasks.size()), 1);
+  const auto points = forEachTask<std::vector<SurfacePoint>>(
+      tasks, concurrent() ? kSurfacesPerPiece : together, render);
+  std::vector<AlignTask> alignments;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const RenderTask& task = tasks[i];
+    alignments.push_back(
+        {&points[i], task.camera_from_object, task.center_mm, task.radius_mm, task.alignment});
+  }
+  return align(depth, alignments);
+}
+
+std::vector<CheckResult> StageSet::judgeSurfaces(const ResidentDepth& depth,
+                                                 const std::vector<RenderTask>& tasks) {
+  const auto& own = static_cast<const HostDepth&>(depth);
+  const int together = std::max(static_cast<int>(tasks.size()), 1);
+  return forEachTask<CheckResult>(
+      tasks, concurrent() ? kSurfacesPerPiece : together, [&](const RenderTask& task) {
+        const Image<SurfaceTexel> surface =
+            renderSurface(*task.mesh, own.depth.camera, task.camera_from_object, task.window);
+        return host::check(surface, task.window, own.depth, task.check);
+      });
 }
 
 }  // namespace rangepose

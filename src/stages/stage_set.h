@@ -57,6 +57,19 @@ struct JudgeTask {
   CheckOptions options;
 };
 
+/// A posed object whose rendered surface is aligned with the depth image without background, or
+/// judged by the whole of it. Fields of the other use are ignored.
+struct RenderTask {
+  const Mesh* mesh = nullptr;
+  Pose camera_from_object;
+  SurfaceWindow window;       ///< of the rendering; of the depth image's camera
+  int max_points = 0;         ///< alignment: of the surface, as in pointsOfSurface
+  glm::dvec3 center_mm{0.0};  ///< alignment
+  double radius_mm = 0.0;     ///< alignment
+  IcpOptions alignment;
+  CheckOptions check;
+};
+
 class StageSet {
  public:
   virtual ~StageSet() = default;
@@ -106,15 +119,25 @@ class StageSet {
                                          const std::vector<float>& seed_range_px,
                                          const SearchOptions& options) = 0;
 
-  // Refinement of many poses at once. What is not overridden runs on the host.
-  /// `depth` and `foreground_mm` (0 on background) must outlive the result.
+  // A depth image that is used more than once, and the refinement of many poses on it. What is not
+  // overridden runs on the host.
+  /// `keep` as in `resample`. Both must outlive the result.
   virtual std::unique_ptr<ResidentDepth> uploadDepth(const DepthImage& depth,
-                                                     const Image<float>& foreground_mm);
+                                                     const Image<std::uint8_t>& keep);
+  /// As `prepare` of the same image and mask.
+  virtual std::unique_ptr<ResidentScene> prepare(const ResidentDepth& depth,
+                                                 const OrthoCamera& camera,
+                                                 const PixelBox& region,
+                                                 const ChannelOptions& options);
   /// One result a task, in order. `depth` comes from the same path.
   virtual std::vector<IcpResult> align(const ResidentDepth& depth,
                                        const std::vector<AlignTask>& tasks);
   virtual std::vector<CheckResult> judge(const ResidentDepth& depth,
                                          const std::vector<JudgeTask>& tasks);
+  virtual std::vector<IcpResult> alignSurfaces(const ResidentDepth& depth,
+                                               const std::vector<RenderTask>& tasks);
+  virtual std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
+                                                 const std::vector<RenderTask>& tasks);
 };
 
 /// The host path. Keeps a packed copy of the views of each object that it has searched.

@@ -72,6 +72,7 @@ class HostStages : public StageSet {
     return host::renderSurface(mesh, camera, camera_from_object, window);
   }
 
+  using StageSet::prepare;
   std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
                                          const Image<std::uint8_t>& keep,
                                          const OrthoCamera& camera,

@@ -3,22 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stages/surface_points_core.h"
+
 namespace rangepose {
-namespace {
-
-/// Rows and columns to skip so that about `max_points` of `count` remain.
-int strideFor(float count, int max_points) {
-  return std::max(1,
-                  static_cast<int>(std::ceil(std::sqrt(count / static_cast<float>(max_points)))));
-}
-
-}  // namespace
 
 std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, int max_points) {
   const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
   const glm::ivec2 origin = object.tileOrigin(view);
   const glm::dmat3 object_from_view = glm::transpose(reference.rotation);
-  const int stride = strideFor(reference.area_px, max_points);
+  const int stride = pointStride(reference.area_px, max_points);
   const auto usable = [&](int u, int v) {
     const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
     return texel.a > 0.0f && texel.b == 0.0f;
@@ -52,17 +45,14 @@ std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           int max_points) {
   const auto seen = std::count_if(
       surface.begin(), surface.end(), [](const SurfaceTexel& texel) { return texel.w > 0.0f; });
-  const int stride = strideFor(static_cast<float>(seen), max_points);
+  const int stride = pointStride(static_cast<float>(seen), max_points);
   const Pose object_from_camera = camera_from_object.inverse();
   std::vector<SurfacePoint> points;
   for (int y = stride / 2; y < surface.height(); y += stride) {
     for (int x = stride / 2; x < surface.width(); x += stride) {
       const SurfaceTexel& texel = surface.at(x, y);
       if (texel.w <= 0.0f) continue;
-      const glm::dvec3 point = camera.unproject(
-          window.x0 + x * window.step, window.y0 + y * window.step, static_cast<double>(texel.w));
-      points.push_back({glm::vec3(object_from_camera * point),
-                        glm::vec3(object_from_camera.rotation * glm::dvec3(texel))});
+      points.push_back(pointOfTexel(texel, camera, window, object_from_camera, x, y));
     }
   }
   return points;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 
 #include "cli/cli_fixture.h"
 #include "support/backends.h"
@@ -53,6 +54,16 @@ TEST_F(CompareTest, JsonOnStdoutIsAlone) {
   if (result.exit_code == 3 && !backendRequired("gles")) GTEST_SKIP() << result.err;
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(json::accept(result.out));
+}
+
+TEST_F(CompareTest, PictureHasBothPathsAndTheirDifference) {
+  const RunResult result = compare({"--picture", "p.png"});
+  if (result.exit_code == 3 && !backendRequired("gles")) GTEST_SKIP() << result.err;
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const cv::Mat picture = cv::imread((folder() / "p.png").string());
+  // Three panels wide, and many stages high.
+  EXPECT_GT(picture.cols, 3 * 300);
+  EXPECT_GT(picture.rows, 6 * 200);
 }
 
 TEST_F(CompareTest, PathsThatAreNotHereAreExitCodeThree) {

@@ -15,10 +15,10 @@ TEST_F(DoctorTest, NamesHostAndCuda) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ContainsRegex("cores +[0-9]+\n"));
   EXPECT_THAT(result.out, ContainsRegex("SIMD +[A-Z]"));
-  EXPECT_THAT(result.out, ContainsRegex("cuda +not built in\n"));
+  EXPECT_THAT(result.out, ContainsRegex("cuda +(not built in|built with CUDA [0-9.]+)\n"));
   EXPECT_THAT(result.out, ContainsRegex("NVIDIA driver +(not )?found"));
   EXPECT_THAT(result.out, ContainsRegex("host +yes\n"));
-  EXPECT_THAT(result.out, ContainsRegex("--path auto +takes (host|glsl)"));
+  EXPECT_THAT(result.out, ContainsRegex("--path auto +takes (host|glsl|cuda)"));
 }
 
 TEST_F(DoctorTest, WithoutEglHostWorksAndTheRemedyIsNamed) {
@@ -29,6 +29,23 @@ TEST_F(DoctorTest, WithoutEglHostWorksAndTheRemedyIsNamed) {
   EXPECT_THAT(result.out, ContainsRegex("--path auto +takes host"));
   EXPECT_THAT(result.out, HasSubstr("libgl1-mesa-dri"));
   EXPECT_EQ(result.err, "");
+}
+
+TEST_F(DoctorTest, SaysWhatCudaLacks) {
+  const RunResult result = run({"doctor", "--interop", "copy"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const bool works = result.out.find("\n  cuda              yes\n") != std::string::npos;
+  if (works) {
+    EXPECT_THAT(result.out, ContainsRegex("interop +copy: "));
+  } else {
+    EXPECT_THAT(
+        result.out,
+        ContainsRegex("cuda: (this program was built without|no NVIDIA driver|no CUDA device)"));
+  }
+}
+
+TEST_F(DoctorTest, UnknownInteropIsAUsageError) {
+  EXPECT_TRUE(failsWith(run({"doctor", "--interop", "wire"}), 2, {"--interop"}));
 }
 
 }  // namespace

@@ -7,36 +7,110 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
+#include <string>
+#include <utility>
 
+#include "cuda/cuda_path.h"
+#include "gles/references_gles.h"
 #include "gles/stage_set_gles.h"
+#include "stages/reference_host.h"
 #include "stages/stage_set.h"
 #include "support/backends.h"
+#include "support/tolerances.h"
 
 namespace rangepose::test {
 
-/// Each test must have drawn something: a path that quietly falls back to the host compares it with
-/// itself.
-class Parity : public GlesFixture {
+/// A path with what it needs, or why it is not here.
+struct ParitySubject {
+  std::unique_ptr<gles::Context> context;
+  std::unique_ptr<StageSet> stages;
+};
+
+/// "glsl", "glsl_on_desktop_gl", "cuda" (whatever interop works), "cuda_gles", "cuda_gl",
+/// "cuda_copy" or "cuda_staged". Throws Unavailable.
+inline ParitySubject openSubject(const std::string& name) {
+  ParitySubject subject;
+  if (name.rfind("glsl", 0) == 0) {
+    gles::ContextOptions options;
+    options.debug = true;
+    options.api = name == "glsl" ? gles::Api::kGles : gles::Api::kDesktop;
+    subject.context = std::make_unique<gles::Context>(options);
+    subject.stages = gles::makeGlesStages(*subject.context);
+    return subject;
+  }
+  cuda::PathOptions options;
+  if (name == "cuda_gles") options.interop = cuda::Interop::kGles;
+  if (name == "cuda_gl") options.interop = cuda::Interop::kGl;
+  if (name == "cuda_copy") options.interop = cuda::Interop::kCopy;
+  options.staged = name == "cuda_staged";
+  cuda::Path path = cuda::openPath(options);
+  subject.context = std::move(path.context);
+  subject.stages = std::move(path.stages);
+  return subject;
+}
+
+/// Whether a path that is missing is a failure. One kind of interop may be missing: another is then
+/// in use.
+inline bool subjectRequired(const std::string& name) {
+  if (name == "glsl") return backendRequired("gles");
+  return (name == "cuda" || name == "cuda_copy" || name == "cuda_staged") &&
+         backendRequired("cuda");
+}
+
+/// Each test must have done something on the device: a path that quietly falls back to the host
+/// compares it with itself.
+class Parity : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override {
-    GlesFixture::SetUp();
-    if (IsSkipped() || HasFatalFailure()) return;
-    subject_ = gles::makeGlesStages(context());
+    try {
+      subject_ = openSubject(GetParam());
+    } catch (const Unavailable& error) {
+      if (subjectRequired(GetParam())) FAIL() << error.what();
+      GTEST_SKIP() << error.what();
+    }
     host_ = makeHostStages();
   }
   void TearDown() override {
-    if (!subject_ || HasFatalFailure()) return;
-    EXPECT_GT(subject_->work().draws, 0) << "nothing ran on the device";
+    if (!subject_.stages || HasFatalFailure()) return;
+    const DeviceWork work = subject_.stages->work();
+    EXPECT_GT(work.draws + work.launches, 0) << "nothing ran on the device";
     EXPECT_EQ(host_->work().draws, 0);
-    subject_.reset();
+    subject_ = {};
   }
-  StageSet& subject() { return *subject_; }
+  StageSet& subject() { return *subject_.stages; }
   StageSet& host() { return *host_; }
+  bool onGlsl() const { return std::string(GetParam()).rfind("glsl", 0) == 0; }
+  gles::Context& context() { return *subject_.context; }
+  /// By GL where the subject has it, else on the host.
+  void renderReferences(ReferenceObject& object) {
+    if (subject_.context) {
+      gles::renderReferences(*subject_.context, object, {});
+    } else {
+      host::renderReferences(object, {}, {});
+    }
+  }
+  /// Floats that a root or a quotient may be off by: CUDA and llvmpipe round as the host does.
+  std::int64_t deviceUlps() const {
+    return onGlsl() && !subject_.context->info().software ? kDeviceUlps : 0;
+  }
 
  private:
-  std::unique_ptr<StageSet> subject_;
+  ParitySubject subject_;
   std::unique_ptr<StageSet> host_;
 };
+
+/// The name of an instance is that of its subject.
+#define RP_PARITY_SUBJECTS(Suite)                                \
+  INSTANTIATE_TEST_SUITE_P(,                                     \
+                           Suite,                                \
+                           testing::Values("glsl",               \
+                                           "glsl_on_desktop_gl", \
+                                           "cuda",               \
+                                           "cuda_gles",          \
+                                           "cuda_gl",            \
+                                           "cuda_copy",          \
+                                           "cuda_staged"),       \
+                           [](const auto& instance) { return std::string(instance.param); })
 
 /// Floats between two values: 0 for equal ones (also +0 and -0).
 inline std::int64_t ulpsBetween(float a, float b) {

@@ -7,7 +7,8 @@
 namespace rangepose {
 namespace {
 
-using ResampleParity = test::Parity;
+class ResampleParity : public test::Parity {};
+RP_PARITY_SUBJECTS(ResampleParity);
 using test::differences;
 
 DepthImage depthImage(int width, int height, unsigned seed, bool orthographic) {
@@ -40,7 +41,7 @@ OrthoCamera orthoCamera(
   return camera;
 }
 
-TEST_F(ResampleParity, RangeIsBitExact) {
+TEST_P(ResampleParity, RangeIsBitExact) {
   int measured = 0;
   for (unsigned seed = 1; seed <= 4; ++seed) {
     for (const bool orthographic : {false, true}) {
@@ -58,7 +59,7 @@ TEST_F(ResampleParity, RangeIsBitExact) {
   EXPECT_GT(measured, 20000) << "the scenes must fill the images";
 }
 
-TEST_F(ResampleParity, MaskedPixelsAreLeftOut) {
+TEST_P(ResampleParity, MaskedPixelsAreLeftOut) {
   const DepthImage image = depthImage(64, 48, 7, false);
   const OrthoCamera camera = orthoCamera(image, 64, 64, 1.0, 0.2);
   Image<std::uint8_t> keep(64, 48, 0);
@@ -72,7 +73,7 @@ TEST_F(ResampleParity, MaskedPixelsAreLeftOut) {
   EXPECT_EQ(subject().resample(image, nothing, camera), Image<float>(64, 64, 0.0f));
 }
 
-TEST_F(ResampleParity, PointsBehindTheCameraAreLeftOut) {
+TEST_P(ResampleParity, PointsBehindTheCameraAreLeftOut) {
   const DepthImage image = depthImage(64, 48, 3, false);
   OrthoCamera camera = orthoCamera(image, 64, 64, 1.0, 0.0);
   camera.camera_from_ortho.translation_mm.z += 400.0;  // among the points
@@ -80,7 +81,7 @@ TEST_F(ResampleParity, PointsBehindTheCameraAreLeftOut) {
   EXPECT_EQ(differences(subject().resample(image, {}, camera), expected), 0);
 }
 
-TEST_F(ResampleParity, PreparedChannelsAreThoseOfTheHost) {
+TEST_P(ResampleParity, PreparedChannelsAreThoseOfTheHost) {
   const DepthImage image = depthImage(120, 90, 5, false);
   const OrthoCamera camera = orthoCamera(image, 128, 128, 0.9, 0.15);
   for (const PixelBox region : {PixelBox{}, PixelBox{13, 9, 101, 77}}) {

@@ -15,7 +15,8 @@
 namespace rangepose {
 namespace {
 
-using SearchParity = test::Parity;
+class SearchParity : public test::Parity {};
+RP_PARITY_SUBJECTS(SearchParity);
 using test::Random;
 
 SceneChannels channelsOf(const Image<float>& range) {
@@ -56,13 +57,13 @@ void expectNear(const ErrorTerms& actual, const ErrorTerms& expected, const std:
   close(actual.range_weight, expected.range_weight);
 }
 
-TEST_F(SearchParity, ErrorSumsAgree) {
+TEST_P(SearchParity, ErrorSumsAgree) {
   // Both paths know an object by its address, so the two must live side by side.
   std::array<ReferenceObject, 2> objects = {test::objectOf(test::bracketBoxes(), 30, 64, 21),
                                             test::objectOf(test::bracketBoxes(), 30, 33, 22)};
   for (ReferenceObject& object : objects) {
     const int size = object.size;
-    gles::renderReferences(context(), object, {});
+    renderReferences(object);
     const SceneChannels window = windowWith(object, 4, 57.0f, 3);
     Random random(6);
     for (const HolePolicy holes : {HolePolicy::kPaper, HolePolicy::kIgnore, HolePolicy::kLimit}) {
@@ -96,9 +97,9 @@ TEST_F(SearchParity, ErrorSumsAgree) {
   }
 }
 
-TEST_F(SearchParity, AShiftIsWorthTheWorstErrorJustBeyondItsLimit) {
+TEST_P(SearchParity, AShiftIsWorthTheWorstErrorJustBeyondItsLimit) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 2, 64, 21);
-  gles::renderReferences(context(), object, {});
+  renderReferences(object);
   const SceneChannels window = windowWith(object, 0, 57.0f, 3);
   const std::vector<glm::vec3> edge = {{48.0f, -48.0f, 100.0f}, {48.001f, 0.0f, 100.0f}};
   const std::vector<ErrorTerms> terms = subject().errorTerms(object, window, edge, {});
@@ -121,8 +122,8 @@ std::int64_t farthest(const SimplexState& a, const SimplexState& b) {
   return ulps;
 }
 
-TEST_F(SearchParity, ReplayedSimplexStepsAreExact) {
-  const std::int64_t allowed = context().info().software ? 0 : test::kDeviceUlps;
+TEST_P(SearchParity, ReplayedSimplexStepsAreExact) {
+  const std::int64_t allowed = deviceUlps();
   constexpr int kCount = 333;
   Random random(12);
   SimplexOptions options;
@@ -173,10 +174,10 @@ const Hypothesis& best(const std::vector<Hypothesis>& all, int window) {
   return *found;
 }
 
-TEST_F(SearchParity, TheWholeSearchFindsTheSameErrors) {
+TEST_P(SearchParity, TheWholeSearchFindsTheSameErrors) {
   constexpr int kViews = 60;
   ReferenceObject object = test::objectOf(test::bracketBoxes(), kViews, 64, 31);
-  gles::renderReferences(context(), object, {});
+  renderReferences(object);
   const std::vector<int> shown = {7, 44};
   std::vector<std::unique_ptr<ResidentScene>> on_host;
   std::vector<std::unique_ptr<ResidentScene>> on_device;
@@ -222,9 +223,9 @@ TEST_F(SearchParity, TheWholeSearchFindsTheSameErrors) {
   }
 }
 
-TEST_F(SearchParity, TheSameSearchTwiceIsBitIdentical) {
+TEST_P(SearchParity, TheSameSearchTwiceIsBitIdentical) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 20, 64, 31);
-  gles::renderReferences(context(), object, {});
+  renderReferences(object);
   const SceneChannels window = windowWith(object, 3, 30.0f, 1);
   const std::unique_ptr<ResidentScene> scene = subject().upload(window);
   const std::vector<float> seed = {window.range_px.at(64, 64)};
@@ -236,9 +237,9 @@ TEST_F(SearchParity, TheSameSearchTwiceIsBitIdentical) {
   }
 }
 
-TEST_F(SearchParity, ScenesOfAnotherPathAreRefused) {
+TEST_P(SearchParity, ScenesOfAnotherPathAreRefused) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 2, 64, 31);
-  gles::renderReferences(context(), object, {});
+  renderReferences(object);
   const SceneChannels window = windowWith(object, 0, 30.0f, 1);
   const std::unique_ptr<ResidentScene> scene = host().upload(window);
   EXPECT_THROW(subject().search(object, {scene.get()}, {90.0f}, {}), Error);

@@ -11,7 +11,8 @@
 namespace rangepose {
 namespace {
 
-using SurfaceParity = test::Parity;
+class SurfaceParity : public test::Parity {};
+RP_PARITY_SUBJECTS(SurfaceParity);
 
 Camera perspective() {
   Camera camera;
@@ -79,7 +80,7 @@ Comparison compare(const Image<SurfaceTexel>& actual, const Image<SurfaceTexel>&
   return result;
 }
 
-TEST_F(SurfaceParity, DiffersOnlyAtBordersOfFaces) {
+TEST_P(SurfaceParity, DiffersOnlyAtBordersOfFaces) {
   const Mesh mesh = test::meshOf(test::bracketBoxes());
   const Sphere sphere = boundingSphere(mesh);
   for (const Camera& camera : {perspective(), orthographic()}) {
@@ -106,7 +107,7 @@ TEST_F(SurfaceParity, DiffersOnlyAtBordersOfFaces) {
   }
 }
 
-TEST_F(SurfaceParity, TrianglesThatReachBehindTheCameraAreLeftOut) {
+TEST_P(SurfaceParity, TrianglesThatReachBehindTheCameraAreLeftOut) {
   Mesh mesh = test::meshOf(test::bracketBoxes());
   test::addBox(mesh, {{-300.0, -300.0, -900.0}, {-290.0, 300.0, 500.0}});
   Pose pose;
@@ -123,7 +124,7 @@ TEST_F(SurfaceParity, TrianglesThatReachBehindTheCameraAreLeftOut) {
   EXPECT_EQ(host().renderSurface(mesh, perspective(), pose, window), nothing);
 }
 
-TEST_F(SurfaceParity, AChangedMeshAtTheSameAddressIsDrawnAnew) {
+TEST_P(SurfaceParity, AChangedMeshAtTheSameAddressIsDrawnAnew) {
   Mesh mesh = test::meshOf(test::bracketBoxes());
   const Camera camera = orthographic();
   Pose pose;
@@ -136,7 +137,7 @@ TEST_F(SurfaceParity, AChangedMeshAtTheSameAddressIsDrawnAnew) {
   EXPECT_GT(test::differences(before, after), 0);
 }
 
-TEST_F(SurfaceParity, AnEmptyWindowIsEmpty) {
+TEST_P(SurfaceParity, AnEmptyWindowIsEmpty) {
   const Mesh mesh = test::meshOf(test::bracketBoxes());
   EXPECT_TRUE(subject().renderSurface(mesh, perspective(), Pose{}, SurfaceWindow{}).empty());
   static_cast<void>(subject().median(Image<float>(4, 4, 1.0f)));  // for the fixture's proof of work

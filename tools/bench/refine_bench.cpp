@@ -8,15 +8,6 @@ namespace {
 
 constexpr int kViews = 1024;
 
-Image<float> foregroundDepth(Fixture& fixture) {
-  Image<float> depth = fixture.demo().depth_mm;
-  const Image<std::uint8_t>& mask = fixture.trace(kViews).foreground;
-  for (std::size_t i = 0; i < depth.size(); ++i) {
-    if (mask.data()[i] == 0) depth.data()[i] = 0.0f;
-  }
-  return depth;
-}
-
 std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scene) {
   const ObjectTrace& trace = fixture.trace(kViews).objects.front();
   std::vector<OrthoCamera> cameras;
@@ -31,9 +22,8 @@ std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scen
 
 void addCoarse(Fixture& fixture, const Path& path) {
   add("BM_CoarseRefinement/" + path.name, [&fixture, path](benchmark::State& state) {
-    const Image<float> foreground = foregroundDepth(fixture);
     const std::unique_ptr<ResidentDepth> resident =
-        path.stages->uploadDepth(fixture.demo(), foreground);
+        path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), *path.stages};
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
@@ -46,10 +36,9 @@ void addCoarse(Fixture& fixture, const Path& path) {
 
 void addFine(Fixture& fixture, const Path& path) {
   add("BM_FineRefinementAndCheck/" + path.name, [&fixture, path](benchmark::State& state) {
-    const Image<float> foreground = foregroundDepth(fixture);
     const ReferenceDatabase& database = fixture.database(kViews);
     const std::unique_ptr<ResidentDepth> resident =
-        path.stages->uploadDepth(fixture.demo(), foreground);
+        path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(
         roughCandidates(fixture, scene), database, scene, EstimateOptions().verified);

@@ -13,7 +13,9 @@
 #include "pipeline/compare.h"
 #include "pipeline/path_choice.h"
 #include "rangepose/command.h"
+#include "rangepose/compare_picture.h"
 #include "rangepose/console.h"
+#include "rangepose/cuda_options.h"
 #include "rangepose/estimate_report.h"
 #include "rangepose/progress.h"
 #include "rangepose/scene_input.h"
@@ -29,14 +31,17 @@ path by itself.
 
 Examples:
   rangepose compare --db parts.rpdb --depth depth.png --camera camera.json --paths host,glsl
-  rangepose compare --db parts.rpdb --cloud scan.ply --paths host,glsl --json -)";
+  rangepose compare --db parts.rpdb --cloud scan.ply --paths host,glsl --json -
+  rangepose compare --db parts.rpdb --depth d.png --camera c.json --paths host,glsl,cuda --picture p.png)";
 
 struct CompareArguments {
   SceneArguments scene;
   std::vector<std::string> paths = {"host", "glsl"};
+  CudaArguments cuda;
   EstimateOptions options;
   int threads = 0;
   std::string json;
+  std::string picture;
 };
 
 Json stageJson(const StageComparison& stage) {
@@ -89,9 +94,12 @@ int compare(const CompareArguments& arguments) {
   checkUsage(arguments);
   const bool to_stdout = arguments.json == "-";
   if (!arguments.json.empty() && !to_stdout) checkOutputFile(arguments.json);
+  if (!arguments.picture.empty()) checkOutputFile(arguments.picture);
   setThreadCount(arguments.threads);
   std::vector<PathStages> paths;
-  for (const std::string& name : arguments.paths) paths.push_back(openPath(parsePathRequest(name)));
+  for (const std::string& name : arguments.paths) {
+    paths.push_back(openPath(parsePathRequest(name), cudaOptions(arguments.cuda)));
+  }
   const ReferenceDatabase database = readDatabase(arguments.scene.database);
   const DepthImage depth = readScene(arguments.scene);
   const std::optional<BinBox> bin = readBin(arguments.scene);
@@ -103,6 +111,14 @@ int compare(const CompareArguments& arguments) {
         comparePaths(depth, bin, database, arguments.options, *paths[0].stages, *paths[i].stages);
     text += comparisonTable(comparison);
     list.push_back(comparisonJson(comparison));
+  }
+  if (!arguments.picture.empty()) {
+    std::vector<SeenPath> seen;
+    for (const PathStages& path : paths) {
+      const SeenPath* reference = seen.empty() ? nullptr : &seen.front();
+      seen.push_back(seeOnPath(*path.stages, depth, bin, database, arguments.options, reference));
+    }
+    writeComparison(arguments.picture, seen);
   }
   const std::string json =
       jsonText({{"version", RP_VERSION}, {"image", arguments.scene.file()}, {"comparisons", list}});
@@ -125,6 +141,7 @@ std::function<int()> declareCompare(CLI::App& command) {
       ->delimiter(',')
       ->check(CLI::IsMember({"host", "glsl", "cuda"}))
       ->capture_default_str();
+  declareCuda(command, arguments->cuda);
   command.add_option("--starts", arguments->options.starts, "Start points of the search")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -135,6 +152,11 @@ std::function<int()> declareCompare(CLI::App& command) {
       .add_option(
           "--json", arguments->json, "Write the comparison as JSON; - is stdout, then without text")
       ->option_text("FILE|-");
+  command
+      .add_option("--picture",
+                  arguments->picture,
+                  "Write the stages of all paths side by side with their differences (PNG)")
+      ->option_text("FILE");
   return [arguments] { return compare(*arguments); };
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -12,30 +13,41 @@
 #include "gles/context.h"
 #include "gles/egl_display.h"
 #include "rangepose/command.h"
+#include "rangepose/cuda_options.h"
 
 namespace rangepose::cli {
 namespace {
 
 constexpr const char* kExamples = R"(Examples:
   rangepose doctor
+  rangepose doctor --interop copy                                  whether CUDA works without shared textures
   __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent rangepose doctor     as if there were no EGL driver)";
 
-/// The driver library of NVIDIA, where there is one.
-struct CudaDriver {
-  bool found = false;
-  int version = 0;  ///< newest CUDA that it supports: 1000 * major + 10 * minor; 0 unknown
+/// What of CUDA works here.
+struct CudaFindings {
+  cuda::Status status;
+  std::string interop;  ///< in use, and why others are not; empty: the path does not open
+  std::string failure;  ///< why it does not open; empty: it does
 };
 
-CudaDriver findCudaDriver() {
-  CudaDriver driver;
+CudaFindings findCuda(const cuda::PathOptions& options) {
+  CudaFindings found;
+  found.status = cuda::status();
+  try {
+    const cuda::Path path = cuda::openPath(options);
+    found.interop = std::string(cuda::nameOf(path.interop)) + ": " + path.interop_note;
+  } catch (const Error& error) {
+    found.failure = error.what();
+  }
+  return found;
+}
+
+/// Where the program knows nothing of CUDA, whether its driver is there at all.
+bool hasNvidiaDriver() {
   void* const library = dlopen("libcuda.so.1", RTLD_LAZY | RTLD_LOCAL);
-  if (library == nullptr) return driver;
-  driver.found = true;
-  using GetVersion = int (*)(int*);
-  const auto get_version = reinterpret_cast<GetVersion>(dlsym(library, "cuDriverGetVersion"));
-  if (get_version != nullptr && get_version(&driver.version) != 0) driver.version = 0;
+  if (library == nullptr) return false;
   dlclose(library);
-  return driver;
+  return true;
 }
 
 const char* simdName() {
@@ -95,21 +107,36 @@ void printContext(const gles::ContextInfo& info) {
   row("largest texture", fmt::format("{} px", info.max_texture_size));
 }
 
-void printCuda(const CudaDriver& driver) {
+void printCuda(const CudaFindings& found) {
+  const cuda::Status& status = found.status;
   std::cout << "CUDA\n";
-  row("cuda", "not built in");
-  std::string text = driver.found ? "found (libcuda.so.1)" : "not found (libcuda.so.1)";
-  if (driver.version > 0) {
-    text += fmt::format(", up to CUDA {}.{}", driver.version / 1000, driver.version % 1000 / 10);
+  row("cuda", status.toolkit.empty() ? "not built in" : "built with CUDA " + status.toolkit);
+  std::string driver = hasNvidiaDriver() ? "found (libcuda.so.1)" : "not found (libcuda.so.1)";
+  if (!status.driver.empty()) driver += ", up to CUDA " + status.driver;
+  row("NVIDIA driver", driver);
+  for (const cuda::DeviceInfo& device : status.devices) {
+    row(fmt::format("CUDA device {}", device.index).c_str(),
+        fmt::format("{}, compute capability {}.{}, {} multiprocessors, {:.0f} MB",
+                    device.name,
+                    device.capability / 10,
+                    device.capability % 10,
+                    device.multiprocessors,
+                    device.memory_mb));
   }
-  row("NVIDIA driver", text);
+  if (!found.interop.empty()) row("interop", found.interop);
+}
+
+/// Unavailable begins with the name of the path.
+std::string withoutPath(const std::string& failure) {
+  const std::string prefix = "path cuda: ";
+  return failure.rfind(prefix, 0) == 0 ? failure.substr(prefix.size()) : failure;
 }
 
 /// One line for each thing that is missing, with what it needs.
 void printMissing(const std::string& no_context,
                   const gles::ContextInfo* info,
                   const std::vector<gles::EglDeviceInfo>& devices,
-                  const CudaDriver& driver) {
+                  const CudaFindings& cuda) {
   std::vector<std::string> lines;
   if (info == nullptr) lines.push_back("glsl: " + no_context);
   for (const std::string& name : info != nullptr ? info->missing : std::vector<std::string>()) {
@@ -118,7 +145,7 @@ void printMissing(const std::string& no_context,
   }
   const bool nvidia_egl = std::any_of(
       devices.begin(), devices.end(), [](const auto& device) { return device.cuda_device >= 0; });
-  if (driver.found && !nvidia_egl) {
+  if (hasNvidiaDriver() && !nvidia_egl) {
     lines.emplace_back(
         "glsl on the NVIDIA GPU: its EGL driver is not there; install libnvidia-egl-gbm1 or the "
         "libnvidia-gl "
@@ -127,24 +154,26 @@ void printMissing(const std::string& no_context,
     lines.emplace_back(
         "glsl on a GPU: needs a GPU and its driver (Mesa: libgl1-mesa-dri; NVIDIA: libnvidia-gl)");
   }
-  lines.emplace_back("cuda: this version has no CUDA path; use glsl or host");
+  if (!cuda.failure.empty()) lines.push_back("cuda: " + withoutPath(cuda.failure));
   std::cout << "missing\n";
   for (const std::string& line : lines) std::cout << "  " << line << '\n';
 }
 
-void printPaths(const gles::ContextInfo* info) {
+void printPaths(const gles::ContextInfo* info, const CudaFindings& cuda) {
   std::cout << "paths\n";
   row("host", "yes");
   row("glsl", info == nullptr ? "no" : info->software ? "yes, in software: slow" : "yes");
-  row("cuda", "no");
+  row("cuda", cuda.failure.empty() ? "yes" : "no");
   const bool gpu = info != nullptr && !info->software;
   row("--path auto",
       fmt::format("takes {}; build renders by {}",
-                  gpu ? "glsl" : "host",
+                  cuda.failure.empty() ? "cuda"
+                  : gpu                ? "glsl"
+                                       : "host",
                   info != nullptr ? "glsl" : "host"));
 }
 
-int examine() {
+int examine(const CudaArguments& arguments) {
   const std::vector<gles::EglDeviceInfo> devices = gles::listEglDevices();
   std::unique_ptr<gles::Context> context;
   std::string no_context;
@@ -154,23 +183,25 @@ int examine() {
     no_context = error.what();
   }
   const gles::ContextInfo* const info = context != nullptr ? &context->info() : nullptr;
-  const CudaDriver driver = findCudaDriver();
+  const CudaFindings cuda = findCuda(cudaOptions(arguments));
   std::cout << "rangepose " RP_VERSION "\n";
   printHost();
   printEglDevices(devices);
   if (info != nullptr) printContext(*info);
   if (info == nullptr) std::cout << "GL\n  none\n";
-  printCuda(driver);
-  printPaths(info);
-  printMissing(no_context, info, devices, driver);
+  printCuda(cuda);
+  printPaths(info, cuda);
+  printMissing(no_context, info, devices, cuda);
   return kDone;
 }
 
 }  // namespace
 
 std::function<int()> declareDoctor(CLI::App& command) {
+  const auto arguments = std::make_shared<CudaArguments>();
   command.footer(kExamples);
-  return examine;
+  declareInterop(command, *arguments);
+  return [arguments] { return examine(*arguments); };
 }
 
 }  // namespace rangepose::cli

@@ -14,6 +14,7 @@
 #include "rangepose/bop_run.h"
 #include "rangepose/command.h"
 #include "rangepose/console.h"
+#include "rangepose/cuda_options.h"
 #include "rangepose/estimate_dump.h"
 #include "rangepose/estimate_report.h"
 #include "rangepose/progress.h"
@@ -38,6 +39,7 @@ struct EstimateArguments {
   SceneArguments scene;
   BopArguments bop;
   std::string path = "auto";
+  CudaArguments cuda;
   EstimateOptions options;
   bool first = false;
   bool all = false;
@@ -126,7 +128,7 @@ int estimate(EstimateArguments arguments, bool split_given) {
   if (arguments.max_poses > 0) arguments.options.max_poses = arguments.max_poses;
   checkOutputs(arguments);
   setThreadCount(arguments.threads);
-  const PathStages path = openPath(parsePathRequest(arguments.path));
+  const PathStages path = openPath(parsePathRequest(arguments.path), cudaOptions(arguments.cuda));
   const ReferenceDatabase database = readDatabase(arguments.scene.database);
   if (!arguments.bop.folder.empty()) {
     return runBop(arguments.bop, database, arguments.options, *path.stages);
@@ -151,9 +153,11 @@ void declareOutputs(CLI::App& command, EstimateArguments& arguments) {
 }
 
 void declareSearch(CLI::App& command, EstimateArguments& arguments) {
-  command.add_option("--path", arguments.path, "auto: glsl on a hardware GPU, else host")
+  command
+      .add_option("--path", arguments.path, "auto: cuda, else glsl on a hardware GPU, else host")
       ->check(CLI::IsMember({"auto", "glsl", "host", "cuda"}))
       ->capture_default_str();
+  declareCuda(command, arguments.cuda);
   command.add_option("--starts", arguments.options.starts, "Start points of the search")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();

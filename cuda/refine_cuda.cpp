@@ -1,0 +1,145 @@
+#include "cuda/refine_cuda.h"
+
+#include <algorithm>
+
+namespace rangepose::cuda {
+
+template <typename Task>
+std::vector<int> Refiner::uploadPoints(const std::vector<Task>& tasks, cudaStream_t stream) {
+  std::vector<int> first;
+  staging_.clear();
+  for (const Task& task : tasks) {
+    first.push_back(static_cast<int>(staging_.size()));
+    staging_.insert(staging_.end(), task.points->begin(), task.points->end());
+  }
+  points_.reserve(std::max<std::size_t>(staging_.size(), 1));
+  points_.upload(staging_.data(), staging_.size(), stream);
+  return first;
+}
+
+std::vector<IcpResult> Refiner::align(const CudaDepth& depth, const std::vector<AlignTask>& tasks) {
+  if (tasks.empty()) return {};
+  const cudaStream_t stream = workspace_.begin();
+  const std::vector<int> first = uploadPoints(tasks, stream);
+  std::vector<IcpTask> own;
+  int most_points = 0;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const AlignTask& task = tasks[i];
+    task.options.check();
+    const int count = static_cast<int>(task.points->size());
+    most_points = std::max(most_points, count);
+    own.push_back({first[i],
+                   count,
+                   task.start,
+                   task.center_mm,
+                   task.radius_mm,
+                   task.options,
+                   icpShrink(task.options)});
+  }
+  icp_tasks_.reserve(own.size());
+  icp_tasks_.upload(own.data(), own.size(), stream);
+  icp_results_.reserve(own.size());
+  cuda::align({depth.camera(), depth.foreground()},
+              icp_tasks_.data(),
+              static_cast<int>(own.size()),
+              most_points,
+              points_.data(),
+              icp_results_.data(),
+              stream);
+  return icp_results_.download(own.size(), stream);
+}
+
+std::vector<CheckResult> Refiner::judge(const CudaDepth& depth,
+                                        const std::vector<JudgeTask>& tasks) {
+  if (tasks.empty()) return {};
+  const cudaStream_t stream = workspace_.begin();
+  const std::vector<int> first = uploadPoints(tasks, stream);
+  std::vector<PointsTask> own;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const JudgeTask& task = tasks[i];
+    own.push_back({first[i],
+                   static_cast<int>(task.points->size()),
+                   task.camera_from_object,
+                   task.visible_mm2,
+                   task.options});
+  }
+  points_tasks_.reserve(own.size());
+  points_tasks_.upload(own.data(), own.size(), stream);
+  verdicts_.reserve(own.size());
+  judgePoints({depth.camera(), depth.pixels().depth_mm},
+              points_tasks_.data(),
+              static_cast<int>(own.size()),
+              points_.data(),
+              verdicts_.data(),
+              stream);
+  return verdicts_.download(own.size(), stream);
+}
+
+std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
+                                              const std::vector<RenderTask>& tasks) {
+  if (tasks.empty()) return {};
+  const TileGrid grid = tileGrid(tasks);
+  const DeviceImage& image = painter_.paint(tasks, depth.camera(), grid);
+  const cudaStream_t stream = workspace_.begin();
+  const Frame frame({&image}, stream);
+  std::vector<IcpTask> own;
+  std::vector<PickTask> picks;
+  int first = 0;
+  int most_points = 0;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const RenderTask& task = tasks[i];
+    task.alignment.check();
+    const PixelBox box = grid.box(i, task.window);
+    picks.push_back({frame.view(image), box.x0, box.y0, task.window, task.max_points});
+    own.push_back({first,
+                   0,  // known on the device only
+                   task.camera_from_object,
+                   task.center_mm,
+                   task.radius_mm,
+                   task.alignment,
+                   icpShrink(task.alignment)});
+    first += task.window.width * task.window.height;
+    most_points = std::max(most_points, task.max_points);
+  }
+  points_.reserve(static_cast<std::size_t>(std::max(first, 1)));
+  picks_.reserve(picks.size());
+  picks_.upload(picks.data(), picks.size(), stream);
+  icp_tasks_.reserve(own.size());
+  icp_tasks_.upload(own.data(), own.size(), stream);
+  icp_results_.reserve(own.size());
+  const int count = static_cast<int>(own.size());
+  pickPoints(picks_.data(), depth.camera(), count, icp_tasks_.data(), points_.data(), stream);
+  cuda::align({depth.camera(), depth.foreground()},
+              icp_tasks_.data(),
+              count,
+              most_points,
+              points_.data(),
+              icp_results_.data(),
+              stream);
+  return icp_results_.download(own.size(), stream);
+}
+
+std::vector<CheckResult> Refiner::judgeSurfaces(const CudaDepth& depth,
+                                                const std::vector<RenderTask>& tasks) {
+  if (tasks.empty()) return {};
+  const TileGrid grid = tileGrid(tasks);
+  const DeviceImage& image = painter_.paint(tasks, depth.camera(), grid);
+  const cudaStream_t stream = workspace_.begin();
+  const Frame frame({&image}, stream);
+  std::vector<SurfaceTask> own;
+  for (std::size_t i = 0; i < tasks.size(); ++i) {
+    const PixelBox box = grid.box(i, tasks[i].window);
+    own.push_back({frame.view(image), tasks[i].window, tasks[i].check, box.x0, box.y0});
+  }
+  surface_tasks_.reserve(own.size());
+  surface_tasks_.upload(own.data(), own.size(), stream);
+  verdicts_.reserve(own.size());
+  cuda::judgeSurfaces({depth.camera(), depth.pixels().depth_mm},
+                      surface_tasks_.data(),
+                      static_cast<int>(own.size()),
+                      verdicts_.data(),
+                      stream);
+  return verdicts_.download(own.size(), stream);
+}
+
+}  // namespace rangepose::cuda

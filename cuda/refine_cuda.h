@@ -1,0 +1,48 @@
+// Alignment and judgement of many poses, with their buffers kept on the device from call to call.
+#pragma once
+
+#include <vector>
+
+#include "cuda/refine.h"
+#include "cuda/scene_cuda.h"
+#include "cuda/surface_painter.h"
+#include "cuda/surface_points.h"
+
+namespace rangepose::cuda {
+
+class Refiner {
+ public:
+  /// `context` draws surfaces; null: the host does. Both must outlive it.
+  Refiner(Workspace& workspace, gles::Context* context)
+      : workspace_(workspace), painter_(workspace, context) {}
+
+  /// Contract of StageSet::align.
+  std::vector<IcpResult> align(const CudaDepth& depth, const std::vector<AlignTask>& tasks);
+  /// Contract of StageSet::judge.
+  std::vector<CheckResult> judge(const CudaDepth& depth, const std::vector<JudgeTask>& tasks);
+  /// Contract of StageSet::alignSurfaces.
+  std::vector<IcpResult> alignSurfaces(const CudaDepth& depth,
+                                       const std::vector<RenderTask>& tasks);
+  /// Contract of StageSet::judgeSurfaces.
+  std::vector<CheckResult> judgeSurfaces(const CudaDepth& depth,
+                                         const std::vector<RenderTask>& tasks);
+  std::int64_t draws() const { return painter_.draws(); }
+
+ private:
+  /// Puts the points of all tasks behind each other; first[i] is where those of task i begin.
+  template <typename Task>
+  std::vector<int> uploadPoints(const std::vector<Task>& tasks, cudaStream_t stream);
+
+  Workspace& workspace_;
+  SurfacePainter painter_;
+  std::vector<SurfacePoint> staging_;
+  Buffer<SurfacePoint> points_;
+  Buffer<IcpTask> icp_tasks_;
+  Buffer<IcpResult> icp_results_;
+  Buffer<PointsTask> points_tasks_;
+  Buffer<PickTask> picks_;
+  Buffer<SurfaceTask> surface_tasks_;
+  Buffer<CheckResult> verdicts_;
+};
+
+}  // namespace rangepose::cuda
