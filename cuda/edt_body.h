@@ -62,12 +62,12 @@ RP_BODY EdtTexel edtCell(const EdtTileSetup& tile,
   return {site_x, site_y, sign * (ex * ex + ey * ey), 1.0f};
 }
 
-template <typename Block, typename Read>
+template <typename Block, typename Range, typename Edge>
 RP_BODY void initEdtTile(Block& block,
                          EdtShared& shared,
                          const EdtTileSetup& tile,
-                         const Read& range,
-                         const Read& edge) {
+                         const Range& range,
+                         const Edge& edge) {
   const int cells = tile.side() * tile.side();
   block.forEachThread([&](int thread) {
     for (int cell = thread; cell < cells; cell += Block::kThreads) {
@@ -87,12 +87,12 @@ RP_BODY void initEdtTile(Block& block,
 }
 
 /// `write(x, y, texel)` gets the tile's pixels as they are after all passes.
-template <typename Block, typename Read, typename Write>
+template <typename Block, typename Range, typename Edge, typename Write>
 RP_BODY void edtTile(Block& block,
                      EdtShared& shared,
                      const EdtTileSetup& tile,
-                     const Read& range,
-                     const Read& edge,
+                     const Range& range,
+                     const Edge& edge,
                      const Write& write) {
   initEdtTile(block, shared, tile, range, edge);
   const int side = tile.side();

@@ -32,7 +32,7 @@ RP_ALWAYS_INLINE float sum8(const Float8& v) {
 
 // Sanitizers start later than the resolvers of cloned functions run.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
-    !defined(__SANITIZE_ADDRESS__)
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define RP_SIMD_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define RP_SIMD_CLONES
