@@ -8,6 +8,9 @@ constexpr int kFewThreads = 64;    ///< for the first rounds: many poses with fe
 constexpr int kManyThreads = 256;  ///< for the last rounds: few poses with many points
 constexpr int kSurfaceThreads = 256;
 
+// One block a multiprocessor may be enough (the second number of the launch bounds): otherwise the
+// sums of 30 doubles a thread are spilled on some architectures.
+
 /// Reads a depth image in memory.
 struct DepthAt {
   const float* depth_mm;
@@ -23,10 +26,11 @@ struct Storage {
 };
 
 template <int kThreads>
-__global__ __launch_bounds__(kThreads) void alignKernel(const __grid_constant__ ResidentImage scene,
-                                                        const IcpTask* __restrict__ tasks,
-                                                        const SurfacePoint* __restrict__ points,
-                                                        IcpResult* __restrict__ results) {
+__global__ __launch_bounds__(kThreads,
+                             1) void alignKernel(const __grid_constant__ ResidentImage scene,
+                                                 const IcpTask* __restrict__ tasks,
+                                                 const SurfacePoint* __restrict__ points,
+                                                 IcpResult* __restrict__ results) {
   __shared__ Storage<IcpShared> shared;
   const DepthAt read{scene.depth_mm, scene.camera.width};
   const DepthReader<DepthAt> reader{scene.camera, scene.camera.width, scene.camera.height, read};
@@ -34,11 +38,11 @@ __global__ __launch_bounds__(kThreads) void alignKernel(const __grid_constant__ 
   alignPose(block, shared.get(), tasks[blockIdx.x], reader, points, results[blockIdx.x]);
 }
 
-__global__ __launch_bounds__(kFewThreads) void judgePointsKernel(
-    const __grid_constant__ ResidentImage depth,
-    const PointsTask* __restrict__ tasks,
-    const SurfacePoint* __restrict__ points,
-    CheckResult* __restrict__ results) {
+__global__ __launch_bounds__(kFewThreads,
+                             1) void judgePointsKernel(const __grid_constant__ ResidentImage depth,
+                                                       const PointsTask* __restrict__ tasks,
+                                                       const SurfacePoint* __restrict__ points,
+                                                       CheckResult* __restrict__ results) {
   DeviceBlock<kFewThreads> block;
   judgeTaskPoints(block,
                   tasks[blockIdx.x],
@@ -48,7 +52,7 @@ __global__ __launch_bounds__(kFewThreads) void judgePointsKernel(
                   results[blockIdx.x]);
 }
 
-__global__ __launch_bounds__(kSurfaceThreads) void judgeSurfacesKernel(
+__global__ __launch_bounds__(kSurfaceThreads, 1) void judgeSurfacesKernel(
     const __grid_constant__ ResidentImage depth,
     const SurfaceTask* __restrict__ tasks,
     CheckResult* __restrict__ results) {
