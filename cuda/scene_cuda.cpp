@@ -1,6 +1,7 @@
 #include "cuda/scene_cuda.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/error.h"
 #include "stages/resample_host.h"
@@ -62,18 +63,33 @@ void resampleInto(Workspace& workspace,
 }  // namespace
 
 Workspace::Workspace(gles::Context* context, DeviceImage::Memory memory)
-    : context_(context), memory_(memory), images_(memory) {
+    : context_(context),
+      memory_(memory),
+      images_(memory),
+      depths_(std::make_shared<std::vector<std::unique_ptr<DepthBuffers>>>()) {
   RP_CHECK(context != nullptr || memory == DeviceImage::Memory::kOwn,
            "shared textures need a GL context");
 }
 
 Workspace::~Workspace() {
-  // The images that go now may be textures. A context that cannot be current leaks them.
-  try {
-    if (context_ != nullptr) context_->makeCurrent();
-  } catch (const Error&) {
-    return;
+  // The images that go now may be textures.
+  if (context_ != nullptr) context_->makeCurrentIfPossible();
+}
+
+std::shared_ptr<DepthBuffers> Workspace::takeDepth(std::size_t pixels) {
+  auto taken = std::make_unique<DepthBuffers>();
+  if (!depths_->empty()) {
+    taken = std::move(depths_->back());
+    depths_->pop_back();
   }
+  taken->depth.reserve(pixels);
+  taken->foreground.reserve(pixels);
+  taken->keep.reserve(pixels);
+  const std::weak_ptr free = depths_;
+  return {taken.release(), [free](DepthBuffers* returned) {
+            std::unique_ptr<DepthBuffers> owned(returned);
+            if (const auto all = free.lock()) all->push_back(std::move(owned));
+          }};
 }
 
 cudaStream_t Workspace::begin() {
@@ -102,21 +118,24 @@ SceneChannels CudaScene::download() const {
   return channels;
 }
 
-CudaDepth::CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, cudaStream_t stream)
+CudaDepth::CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, Workspace& workspace)
     : camera_(image.camera),
-      depth_(image.depth_mm.size()),
-      foreground_(image.depth_mm.size()),
-      keep_(keep.size()) {
+      masked_(!keep.empty()),
+      buffers_(workspace.takeDepth(image.depth_mm.size())) {
   RP_CHECK(keep.empty() || keep.size() == image.depth_mm.size(),
            "the mask has another size than the depth image");
-  depth_.upload(image.depth_mm.data(), image.depth_mm.size(), stream);
+  const cudaStream_t stream = workspace.begin();
+  buffers_->depth.upload(image.depth_mm.data(), image.depth_mm.size(), stream);
   const std::vector<float> kept = foregroundOf(image, keep);
-  foreground_.upload(kept.data(), kept.size(), stream);
-  keep_.upload(keep.data(), keep.size(), stream);
+  buffers_->foreground.upload(kept.data(), kept.size(), stream);
+  if (masked_) buffers_->keep.upload(keep.data(), keep.size(), stream);
 }
 
 DepthPixels CudaDepth::pixels() const {
-  return {depth_.data(), keep_.data(), camera_.width, camera_.height};
+  return {buffers_->depth.data(),
+          masked_ ? buffers_->keep.data() : nullptr,
+          camera_.width,
+          camera_.height};
 }
 
 std::unique_ptr<CudaScene> prepareScene(Workspace& workspace,

@@ -13,11 +13,20 @@
 
 namespace rangepose::cuda {
 
+/// Memory of a depth image.
+struct DepthBuffers {
+  Buffer<float> depth;
+  Buffer<float> foreground;
+  Buffer<std::uint8_t> keep;
+};
+
 /// What all stages of a path share. Everything is put into one stream.
 class Workspace {
  public:
   /// `context` may be null for images of CUDA's own.
   Workspace(gles::Context* context, DeviceImage::Memory memory);
+  Workspace(const Workspace&) = delete;
+  Workspace& operator=(const Workspace&) = delete;
   ~Workspace();
 
   /// The stream, with the context current on this thread.
@@ -29,6 +38,8 @@ class Workspace {
   ImagePool::Lease take(const Image<float>& like) {
     return take(Element::kFloat, like.width(), like.height());
   }
+  /// Goes back by itself; large enough for `pixels`.
+  std::shared_ptr<DepthBuffers> takeDepth(std::size_t pixels);
   DeviceImage::Memory memory() const { return memory_; }
   void synchronize() const { stream_.synchronize(); }
 
@@ -40,6 +51,7 @@ class Workspace {
   DeviceImage::Memory memory_;
   Stream stream_;
   ImagePool images_;
+  std::shared_ptr<std::vector<std::unique_ptr<DepthBuffers>>> depths_;  ///< that are free
 };
 
 class CudaScene : public ResidentScene {
@@ -64,19 +76,17 @@ class CudaScene : public ResidentScene {
 /// A depth image and its mask on the device.
 class CudaDepth : public ResidentDepth {
  public:
-  /// `image` must outlive it.
-  CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, cudaStream_t stream);
+  CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, Workspace& workspace);
 
   const Camera& camera() const { return camera_; }
   DepthPixels pixels() const;
   /// The measured depth without what is not kept [mm], row by row.
-  const float* foreground() const { return foreground_.data(); }
+  const float* foreground() const { return buffers_->foreground.data(); }
 
  private:
   Camera camera_;
-  Buffer<float> depth_;
-  Buffer<float> foreground_;
-  Buffer<std::uint8_t> keep_;
+  bool masked_;
+  std::shared_ptr<DepthBuffers> buffers_;
 };
 
 /// Resample to distance in one chain.

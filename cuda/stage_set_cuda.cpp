@@ -29,7 +29,13 @@ class CudaStages : public StageSet {
         workspace_(context, memory),
         searcher_(workspace_, staged),
         refiner_(workspace_, context),
+        context_(context),
         launches_before_(launches()) {}
+  CudaStages(const CudaStages&) = delete;
+  CudaStages& operator=(const CudaStages&) = delete;
+  ~CudaStages() override {
+    if (context_ != nullptr) context_->makeCurrentIfPossible();
+  }
 
   std::string name() const override { return "cuda"; }
   DeviceWork work() const override {
@@ -39,7 +45,7 @@ class CudaStages : public StageSet {
   Image<float> resample(const DepthImage& image,
                         const Image<std::uint8_t>& keep,
                         const OrthoCamera& camera) override {
-    return resampled(workspace_, CudaDepth(image, keep, workspace_.begin()), camera);
+    return resampled(workspace_, CudaDepth(image, keep, workspace_), camera);
   }
   Image<float> median(const Image<float>& range) override { return medianOf(workspace_, range); }
   Image<float> edges(const Image<float>& range_px, float threshold_px) override {
@@ -81,11 +87,8 @@ class CudaStages : public StageSet {
                                          const OrthoCamera& camera,
                                          const PixelBox& region,
                                          const ChannelOptions& options) override {
-    const CudaDepth depth(image, keep, workspace_.begin());
-    auto scene = prepareScene(workspace_, depth, camera, region, options);
-    // The depth image goes now, and is still read.
-    workspace_.synchronize();
-    return scene;
+    // Its memory may be taken again at once: what reads it comes first in the stream.
+    return prepareScene(workspace_, CudaDepth(image, keep, workspace_), camera, region, options);
   }
   std::unique_ptr<ResidentScene> prepare(const ResidentDepth& depth,
                                          const OrthoCamera& camera,
@@ -110,7 +113,7 @@ class CudaStages : public StageSet {
 
   std::unique_ptr<ResidentDepth> uploadDepth(const DepthImage& depth,
                                              const Image<std::uint8_t>& keep) override {
-    return std::make_unique<CudaDepth>(depth, keep, workspace_.begin());
+    return std::make_unique<CudaDepth>(depth, keep, workspace_);
   }
   std::vector<IcpResult> align(const ResidentDepth& depth,
                                const std::vector<AlignTask>& tasks) override {
@@ -130,10 +133,11 @@ class CudaStages : public StageSet {
   }
 
  private:
-  std::unique_ptr<StageSet> drawing_;  // goes last: the workspace makes the context current
+  std::unique_ptr<StageSet> drawing_;
   Workspace workspace_;
   Searcher searcher_;
   Refiner refiner_;
+  gles::Context* context_;
   std::int64_t launches_before_;
 };
 

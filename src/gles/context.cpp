@@ -246,6 +246,14 @@ void Context::makeCurrent() {
   }
 }
 
+void Context::makeCurrentIfPossible() noexcept {
+  try {
+    makeCurrent();
+  } catch (const Error&) {
+    return;
+  }
+}
+
 void Context::release() {
   eglMakeCurrent(state_->display.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }

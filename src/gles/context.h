@@ -56,6 +56,9 @@ class Context {
   /// Makes it current on the calling thread, if it is not already. It must not be current on
   /// another one.
   void makeCurrent();
+  /// The same for destructors, which must not delete what another context has under the same names:
+  /// an error is left to those who use the context next.
+  void makeCurrentIfPossible() noexcept;
   /// Lets another thread take it.
   void release();
   const ContextInfo& info() const;

@@ -21,6 +21,9 @@ class GlesScene : public ResidentScene {
         range_px(std::move(range)),
         edges(std::move(edge)),
         distance_px(std::move(distance)) {}
+  GlesScene(const GlesScene&) = delete;
+  GlesScene& operator=(const GlesScene&) = delete;
+  ~GlesScene() override { context_.makeCurrentIfPossible(); }
 
   const OrthoCamera& camera() const override { return camera_; }
   SceneChannels download() const override {
@@ -49,6 +52,9 @@ class GlesStages : public StageSet {
  public:
   GlesStages(Context& context, const Defines& extra)
       : context_((context.makeCurrent(), context)), device_(context, extra) {}
+  GlesStages(const GlesStages&) = delete;
+  GlesStages& operator=(const GlesStages&) = delete;
+  ~GlesStages() override { context_.makeCurrentIfPossible(); }
 
   std::string name() const override { return "glsl"; }
   DeviceWork work() const override { return {device_.draws(), 0}; }
