@@ -61,8 +61,8 @@ class KeptPixels<0> {
   }
 };
 
-/// Shared by the threads of a block; the leader changes it.
-struct SearchShared {
+/// Shared by the threads of a block; the leader changes it. Aligned for loads of 16 bytes.
+struct alignas(16) SearchShared {
   SimplexState state;
 };
 

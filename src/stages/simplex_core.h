@@ -59,11 +59,38 @@ RP_HD SimplexState simplexStart(float x, float y, float z, float step) {
 
 namespace simplex_detail {
 
+// Vertices are looked up by comparing, not by indexing: an array that is indexed by a number known
+// at run time cannot stay in the registers of a GPU's thread.
+
+RP_HD SimplexPoint vertexAt(const SimplexState& s, int index) {
+  SimplexPoint point = s.vertex[0];
+  RP_UNROLL
+  for (int i = 1; i < 4; ++i) {
+    if (i == index) point = s.vertex[i];
+  }
+  return point;
+}
+
+RP_HD void setVertex(SimplexState& s, int index, const SimplexPoint& point) {
+  RP_UNROLL
+  for (int i = 0; i < 4; ++i) {
+    if (i == index) s.vertex[i] = point;
+  }
+}
+
+RP_HD void setValue(SimplexState& s, int index, float value) {
+  RP_UNROLL
+  for (int i = 0; i < 4; ++i) {
+    if (i == index) s.vertex[i].value = value;
+  }
+}
+
 /// The point at `centroid + t * (vertex[highest] - centroid)` with the centroid of the other three.
 RP_HD SimplexPoint alongWorst(const SimplexState& s, float t) {
   float cx = 0.0f;
   float cy = 0.0f;
   float cz = 0.0f;
+  RP_UNROLL
   for (int i = 0; i < 4; ++i) {
     if (i == s.highest) continue;
     cx += s.vertex[i].x;
@@ -73,7 +100,7 @@ RP_HD SimplexPoint alongWorst(const SimplexState& s, float t) {
   cx /= 3.0f;
   cy /= 3.0f;
   cz /= 3.0f;
-  const SimplexPoint& w = s.vertex[s.highest];
+  const SimplexPoint w = vertexAt(s, s.highest);
   return {cx + t * (w.x - cx), cy + t * (w.y - cy), cz + t * (w.z - cz), 0.0f};
 }
 
@@ -81,16 +108,24 @@ RP_HD SimplexPoint alongWorst(const SimplexState& s, float t) {
 RP_HD void beginIteration(SimplexState& s, float spread, int max_iterations) {
   s.highest = 0;
   s.lowest = 0;
+  float high = s.vertex[0].value;
+  float low = s.vertex[0].value;
+  RP_UNROLL
   for (int i = 1; i < 4; ++i) {
-    if (s.vertex[i].value > s.vertex[s.highest].value) s.highest = i;
-    if (s.vertex[i].value < s.vertex[s.lowest].value) s.lowest = i;
+    const float value = s.vertex[i].value;
+    if (value > high) {
+      high = value;
+      s.highest = i;
+    }
+    if (value < low) {
+      low = value;
+      s.lowest = i;
+    }
   }
-  const float high = s.vertex[s.highest].value;
-  const float low = s.vertex[s.lowest].value;
   const bool flat = 2.0f * (high - low) <= spread * (high + low);
   if (flat || s.iterations >= max_iterations) {
     s.phase = static_cast<int>(SimplexPhase::kDone);
-    s.candidate = s.vertex[s.lowest];
+    s.candidate = vertexAt(s, s.lowest);
     return;
   }
   ++s.iterations;
@@ -105,7 +140,7 @@ RP_HD void nextShrink(SimplexState& s, int from, float spread, int max_iteration
     beginIteration(s, spread, max_iterations);
     return;
   }
-  s.candidate = s.vertex[index];
+  s.candidate = vertexAt(s, index);
   s.phase = static_cast<int>(SimplexPhase::kShrink0) + index;
 }
 
@@ -119,46 +154,53 @@ RP_HD void simplexAdvance(SimplexState& s, float value, float spread, int max_it
   const SimplexPhase phase = static_cast<SimplexPhase>(s.phase);
   if (phase == SimplexPhase::kDone) return;
   if (phase <= SimplexPhase::kVertex3) {
-    s.vertex[s.phase].value = value;
+    setValue(s, s.phase, value);
     if (phase == SimplexPhase::kVertex3) {
       beginIteration(s, spread, max_iterations);
     } else {
       ++s.phase;
-      s.candidate = s.vertex[s.phase];
+      s.candidate = vertexAt(s, s.phase);
     }
     return;
   }
   if (phase == SimplexPhase::kReflect) {
-    float second = s.vertex[s.lowest].value;
+    const float lowest = vertexAt(s, s.lowest).value;
+    float second = lowest;
+    RP_UNROLL
     for (int i = 0; i < 4; ++i) {
       if (i != s.highest && s.vertex[i].value > second) second = s.vertex[i].value;
     }
-    if (value < s.vertex[s.lowest].value) {
+    if (value < lowest) {
       s.reflected = tried;
       s.candidate = alongWorst(s, -2.0f);
       s.phase = static_cast<int>(SimplexPhase::kExpand);
     } else if (value < second) {
-      s.vertex[s.highest] = tried;
+      setVertex(s, s.highest, tried);
       beginIteration(s, spread, max_iterations);
     } else {
-      if (value < s.vertex[s.highest].value) s.vertex[s.highest] = tried;
+      if (value < vertexAt(s, s.highest).value) setVertex(s, s.highest, tried);
       s.candidate = alongWorst(s, 0.5f);
       s.phase = static_cast<int>(SimplexPhase::kContract);
     }
     return;
   }
   if (phase == SimplexPhase::kExpand) {
-    s.vertex[s.highest] = value < s.reflected.value ? tried : s.reflected;
+    if (value < s.reflected.value) {
+      setVertex(s, s.highest, tried);
+    } else {
+      setVertex(s, s.highest, s.reflected);
+    }
     beginIteration(s, spread, max_iterations);
     return;
   }
   if (phase == SimplexPhase::kContract) {
-    if (value < s.vertex[s.highest].value) {
-      s.vertex[s.highest] = tried;
+    if (value < vertexAt(s, s.highest).value) {
+      setVertex(s, s.highest, tried);
       beginIteration(s, spread, max_iterations);
       return;
     }
-    const SimplexPoint best = s.vertex[s.lowest];
+    const SimplexPoint best = vertexAt(s, s.lowest);
+    RP_UNROLL
     for (int i = 0; i < 4; ++i) {
       SimplexPoint& v = s.vertex[i];
       if (i != s.lowest)
@@ -168,7 +210,7 @@ RP_HD void simplexAdvance(SimplexState& s, float value, float spread, int max_it
     return;
   }
   const int index = s.phase - static_cast<int>(SimplexPhase::kShrink0);
-  s.vertex[index].value = value;
+  setValue(s, index, value);
   nextShrink(s, index + 1, spread, max_iterations);
 }
 
