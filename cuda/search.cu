@@ -1,17 +1,16 @@
 // How the work is laid out, for 1,024 views of 64x64 px in 3 windows (1,500 covered pixels a view,
-// 50 evaluations a simplex):
-// - One block of 256 threads for each view and window: 3,072 blocks keep 132 multiprocessors busy
-//   four to eight times over, so a long search fills the gaps of others. All windows of a view in
-//   one block would save 2 of 3 reads of the views, 50 MB of 75 MB in 4.8 TB/s: 10 us at most.
-// - A view's pixels (16 bytes each, 24 kB) are read once and stay in registers, 6 to 12 pixels a
+// 50 evaluations a simplex). Reckoned for an H200, 132 multiprocessors, not measured:
+// - One block of 256 threads for each view and window: 3,072 blocks, 3 of them at a time on a
+//   multiprocessor, so a long search fills the gaps of others. All windows of a view in one block
+//   would save 2 of 3 reads of the views, 50 MB of 75 MB: 10 us at 4.8 TB/s.
+// - A view's pixels (16 bytes each, 24 kB) are read once and stay in registers, 3 to 12 pixels a
 //   thread. From shared memory they would cost a load an evaluation and pixel, and would take the
 //   place of the first-level cache that holds the window's middle (80 x 80 texels of 8 bytes, 51
 //   kB).
 // - 3,072 x 50 x 1,500 = 230 million pixels are evaluated, each one load of 8 bytes from that cache
-//   and 14 to 20 operations. At four warp instructions a cycle 132 multiprocessors at 1.7 GHz need
-//   0.1 to 0.2 ms for them; reductions and the simplex step, one thread a block, add to that.
-#include "core/error.h"
-#include "cuda/check.h"
+//   and about 18 instructions: 130 million of a warp, 0.15 ms at four a cycle and 1.7 GHz. The
+//   reductions add two fifths. While one thread steps the simplex its block waits; other blocks
+//   fill that gap or do not: what a measurement has to tell.
 #include "cuda/search.h"
 #include "cuda/search_body.h"
 

@@ -7,8 +7,8 @@
 #define RP_HD inline
 #endif
 
-/// Before a loop: so that arrays indexed in it stay in a GPU's registers. nvcc hands the host's half
-/// of a file to the host's compiler, which does not know the pragma.
+/// Before a loop: so that arrays indexed in it stay in a GPU's registers. nvcc hands the host's
+/// half of a file to the host's compiler, which does not know the pragma.
 #ifdef __CUDA_ARCH__
 #define RP_UNROLL _Pragma("unroll")
 #else
