@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "pipeline/compare_refine.h"
 #include "pipeline/compare_search.h"
 #include "pipeline/compare_tally.h"
 #include "pipeline/scene_window.h"
@@ -168,7 +169,12 @@ std::vector<StageComparison> compareIsolated(const DepthImage& depth,
   for (const PoseEstimate& found : estimate.poses) {
     isolated.surface(database.objects[static_cast<std::size_t>(found.object)], found.pose);
   }
-  return isolated.results();
+  std::vector<StageComparison> all = isolated.results();
+  for (const StageComparison& stage :
+       compareRefinement(depth, database, estimate, trace, reference, subject)) {
+    all.push_back(stage);
+  }
+  return all;
 }
 
 }  // namespace rangepose

@@ -104,11 +104,39 @@ class Bent : public StageSet {
     if (bent_ == "search winners") all[all.size() - 1].error = 0.0f;
     return all;
   }
+  std::vector<IcpResult> align(const ResidentDepth& depth,
+                               const std::vector<AlignTask>& tasks) override {
+    return moved(StageSet::align(depth, tasks), "alignment");
+  }
+  std::vector<CheckResult> judge(const ResidentDepth& depth,
+                                 const std::vector<JudgeTask>& tasks) override {
+    return praised(StageSet::judge(depth, tasks), "verdict");
+  }
+  std::vector<IcpResult> alignSurfaces(const ResidentDepth& depth,
+                                       const std::vector<RenderTask>& tasks) override {
+    return moved(StageSet::alignSurfaces(depth, tasks), "surface alignment");
+  }
+  std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
+                                         const std::vector<RenderTask>& tasks) override {
+    return praised(StageSet::judgeSurfaces(depth, tasks), "surface verdict");
+  }
 
  private:
   Image<float> bend(Image<float> image, const std::string& stage) const {
     if (bent_ == stage) image.at(image.width() / 2, image.height() / 2) += 0.5f;
     return image;
+  }
+
+  std::vector<IcpResult> moved(std::vector<IcpResult> results, const std::string& stage) const {
+    if (bent_ != stage) return results;
+    for (IcpResult& result : results) result.camera_from_object.translation_mm.x += 1.0;
+    return results;
+  }
+  std::vector<CheckResult> praised(std::vector<CheckResult> results,
+                                   const std::string& stage) const {
+    if (bent_ != stage) return results;
+    for (CheckResult& result : results) result.score += 0.05;
+    return results;
   }
 
   std::string bent_;
@@ -202,6 +230,11 @@ INSTANTIATE_TEST_SUITE_P(AllStages,
                                          std::pair("search errors", "isolated search errors"),
                                          std::pair("search winners", "isolated search winners"),
                                          std::pair("surface depth", "isolated surface depth"),
+                                         std::pair("alignment", "isolated alignment"),
+                                         std::pair("verdict", "isolated verdict"),
+                                         std::pair("surface alignment",
+                                                   "isolated surface alignment"),
+                                         std::pair("surface verdict", "isolated surface verdict"),
                                          std::pair("scene patches", "chained scene patches")),
                          [](const auto& test_info) {
                            std::string name = test_info.param.first;
