@@ -12,9 +12,10 @@ namespace rangepose::cuda {
 namespace {
 
 /// Pairs at distance 16, 8, ... by recursion: element `lane` after the steps down to `step`.
-float treeSum(const std::vector<float>& values, int first, int lane, int step) {
-  if (step == kWarp) return values[static_cast<std::size_t>(first + lane)];
-  return treeSum(values, first, lane, 2 * step) + treeSum(values, first, lane + step, 2 * step);
+float treeSum(const std::vector<float>& values, std::size_t first, std::size_t lane, int step) {
+  if (step == kWarp) return values[first + lane];
+  return treeSum(values, first, lane, 2 * step) +
+         treeSum(values, first, lane + static_cast<std::size_t>(step), 2 * step);
 }
 
 TEST(BlockTest, SumsAddPairsInWarpsThenWarps) {

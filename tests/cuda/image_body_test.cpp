@@ -151,6 +151,7 @@ Image<std::int32_t> groupedBy(int threads, const Image<float>& range, const Imag
   const std::vector<int> order = shuffled(range.size(), 5);
   const auto forEachPixel = [&](const auto& body) {
     std::vector<std::thread> running;
+    running.reserve(static_cast<std::size_t>(threads));
     for (int t = 0; t < threads; ++t) {
       running.emplace_back([&, t] {
         for (std::size_t i = static_cast<std::size_t>(t); i < order.size();

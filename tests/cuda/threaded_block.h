@@ -77,6 +77,7 @@ template <int kThreads, typename Body>
 void runThreaded(const Body& body) {
   typename ThreadedBlock<kThreads>::Team team;
   std::vector<std::thread> threads;
+  threads.reserve(kThreads);
   for (int i = 0; i < kThreads; ++i) {
     threads.emplace_back([&team, &body, i] {
       ThreadedBlock<kThreads> block(team, i);
