@@ -75,7 +75,7 @@ class Parity : public testing::TestWithParam<const char*> {
     const DeviceWork work = subject_.stages->work();
     EXPECT_GT(work.draws + work.launches, 0) << "nothing ran on the device";
     EXPECT_EQ(host_->work().draws, 0);
-    subject_ = {};
+    subject_.stages.reset();  // before its context
   }
   StageSet& subject() { return *subject_.stages; }
   StageSet& host() { return *host_; }
