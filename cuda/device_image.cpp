@@ -8,6 +8,9 @@
 namespace rangepose::cuda {
 namespace {
 
+/// Twice what a frame with three starts leaves in the pool.
+constexpr std::size_t kMostFree = 48;
+
 std::vector<const SharedTexture*> sharedOf(const std::vector<const DeviceImage*>& images) {
   std::vector<const SharedTexture*> shared;
   for (const DeviceImage* image : images) {
@@ -67,6 +70,8 @@ ImagePool::Lease ImagePool::take(Element element, int width, int height) {
     image = std::move(*found);
     free_->erase(found);
   } else {
+    // Scenes differ in size from image to image: what was not asked for again makes room.
+    if (free_->size() > kMostFree) free_->erase(free_->begin());
     image = std::make_unique<DeviceImage>(memory_, element, width, height);
   }
   return Lease(image.release(), [free = std::weak_ptr<Free>(free_)](DeviceImage* returned) {

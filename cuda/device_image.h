@@ -60,7 +60,7 @@ class Frame {
 };
 
 /// Images that come and go with each frame are kept, so that nothing is allocated or registered
-/// but in the first.
+/// but in the first; those that were free for longest go when there are too many.
 class ImagePool {
  public:
   explicit ImagePool(DeviceImage::Memory memory) : memory_(memory) {}

@@ -30,6 +30,14 @@ Fixture::Fixture() : host_(makeHostStages()) {
   } catch (const Unavailable& error) {
     no_gles_reason_ = error.what();
   }
+  try {
+    for (const bool staged : {false, true}) {
+      cuda_.push_back(cuda::openPath({cuda::Interop::kAuto, staged}));
+      paths_.push_back({staged ? "cuda_staged" : "cuda", cuda_.back().stages.get(), false});
+    }
+  } catch (const Unavailable& error) {
+    no_cuda_reason_ = error.what();
+  }
 }
 
 Fixture::~Fixture() = default;

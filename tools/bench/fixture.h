@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cuda/cuda_path.h"
 #include "database/reference_database.h"
 #include "gles/context.h"
 #include "pipeline/estimate.h"
@@ -32,6 +33,7 @@ class Fixture {
   /// Null where no EGL context can be made; `noGlesReason` says why.
   gles::Context* context() { return context_.get(); }
   const std::string& noGlesReason() const { return no_gles_reason_; }
+  const std::string& noCudaReason() const { return no_cuda_reason_; }
 
   const Mesh& mesh();
   /// models/elbow.ply with so many views.
@@ -50,8 +52,10 @@ class Fixture {
 
   std::unique_ptr<gles::Context> context_;
   std::string no_gles_reason_;
+  std::string no_cuda_reason_;
   std::unique_ptr<StageSet> host_;
   std::unique_ptr<StageSet> glsl_;
+  std::vector<cuda::Path> cuda_;  ///< fused, then staged
   std::vector<Path> paths_;
   std::unique_ptr<Mesh> mesh_;
   std::unique_ptr<DepthImage> demo_;

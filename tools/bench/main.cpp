@@ -16,6 +16,9 @@ int main(int argc, char** argv) {
     } else {
       benchmark::AddCustomContext("glsl", fixture.context()->info().renderer);
     }
+    if (!fixture.noCudaReason().empty()) {
+      std::cerr << "no benchmarks of the cuda path: " << fixture.noCudaReason() << '\n';
+    }
     registerStageBenchmarks(fixture);
     registerSearchBenchmarks(fixture);
     registerRefineBenchmarks(fixture);
