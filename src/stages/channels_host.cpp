@@ -12,67 +12,48 @@ namespace {
 
 constexpr int kRowsPerPiece = 32;
 
-float medianAt(
-    const float* above, const float* here, const float* below, int left, int x, int right) {
-  float nine[9] = {above[left],
-                   above[x],
-                   above[right],
-                   here[left],
-                   here[x],
-                   here[right],
-                   below[left],
-                   below[x],
-                   below[right]};
-  return medianOfNine(nine);
+/// Calls `pixel(nine)` with the 3x3 pixels around each pixel; outside of the image the border
+/// repeats. The columns between the first and the last are a loop of their own, which vectorises.
+template <typename Pixel>
+Image<float> fromNine(const Image<float>& image, const Pixel& pixel) {
+  const int width = image.width();
+  const int height = image.height();
+  Image<float> result(width, height);
+  parallelFor(height, kRowsPerPiece, [&](int begin, int end) {
+    for (int y = begin; y < end; ++y) {
+      const float* above = image.row(std::max(y - 1, 0));
+      const float* here = image.row(y);
+      const float* below = image.row(std::min(y + 1, height - 1));
+      const auto at = [&](int left, int x, int right) {
+        float nine[9] = {above[left],
+                         above[x],
+                         above[right],
+                         here[left],
+                         here[x],
+                         here[right],
+                         below[left],
+                         below[x],
+                         below[right]};
+        return pixel(nine);
+      };
+      float* out = result.row(y);
+      out[0] = at(0, 0, std::min(1, width - 1));
+      for (int x = 1; x < width - 1; ++x) out[x] = at(x - 1, x, x + 1);
+      if (width > 1) out[width - 1] = at(width - 2, width - 1, width - 1);
+    }
+  });
+  return result;
 }
 
 }  // namespace
 
 Image<float> median(const Image<float>& range) {
-  const int width = range.width();
-  const int height = range.height();
-  Image<float> result(width, height);
-  parallelFor(height, kRowsPerPiece, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const float* above = range.row(std::max(y - 1, 0));
-      const float* here = range.row(y);
-      const float* below = range.row(std::min(y + 1, height - 1));
-      float* out = result.row(y);
-      out[0] = medianAt(above, here, below, 0, 0, std::min(1, width - 1));
-      for (int x = 1; x < width - 1; ++x) out[x] = medianAt(above, here, below, x - 1, x, x + 1);
-      if (width > 1) out[width - 1] = medianAt(above, here, below, width - 2, width - 1, width - 1);
-    }
-  });
-  return result;
+  return fromNine(range, [](float(&nine)[9]) { return medianOfNine(nine); });
 }
 
 Image<float> edges(const Image<float>& range_px, float threshold_px) {
-  const int width = range_px.width();
-  const int height = range_px.height();
-  Image<float> result(width, height);
-  parallelFor(height, kRowsPerPiece, [&](int begin, int end) {
-    for (int y = begin; y < end; ++y) {
-      const float* above = range_px.row(std::max(y - 1, 0));
-      const float* here = range_px.row(y);
-      const float* below = range_px.row(std::min(y + 1, height - 1));
-      float* out = result.row(y);
-      for (int x = 0; x < width; ++x) {
-        const int left = std::max(x - 1, 0);
-        const int right = std::min(x + 1, width - 1);
-        const float nine[9] = {above[left],
-                               above[x],
-                               above[right],
-                               here[left],
-                               here[x],
-                               here[right],
-                               below[left],
-                               below[x],
-                               below[right]};
-        out[x] = edgeOfNine(nine, threshold_px);
-      }
-    }
-  });
-  return result;
+  return fromNine(range_px,
+                  [threshold_px](float(&nine)[9]) { return edgeOfNine(nine, threshold_px); });
 }
 
 Image<EdtTexel> distanceTexels(const Image<float>& range_px,
