@@ -60,8 +60,9 @@ std::unique_ptr<gles::Context> openSharing(Interop interop) {
     } catch (const Error& error) {
       reason = error.what();
     }
-    if (reason.rfind(source.name, 0) != 0) reason = source.name + ": " + reason;
-    reasons += (reasons.empty() ? "" : "; ") + reason;
+    if (reason.rfind(source.name, 0) != 0) reason.insert(0, source.name + ": ");
+    if (!reasons.empty()) reasons += "; ";
+    reasons += reason;
   }
   throw Unavailable("interop " + std::string(nameOf(interop)) + ": " +
                     (reasons.empty() ? "EGL has no hardware device" : reasons));

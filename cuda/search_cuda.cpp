@@ -124,6 +124,7 @@ std::vector<ErrorTerms> Searcher::errorTerms(const ReferenceObject& object,
   Known& views = known(object, stream);
   if (staged_) {
     std::vector<SimplexState> states;
+    states.reserve(translations_px.size());
     for (const glm::vec3& at : translations_px) {
       states.push_back(simplexStart(at.x, at.y, at.z, search_options.simplex.step_px));
     }

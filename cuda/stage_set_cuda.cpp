@@ -107,6 +107,7 @@ class CudaStages : public StageSet {
                                  const std::vector<float>& seed_range_px,
                                  const SearchOptions& options) override {
     std::vector<const CudaScene*> own;
+    own.reserve(windows.size());
     for (const ResidentScene* window : windows) own.push_back(&cudaScene(*window));
     return searcher_.search(object, own, seed_range_px, options);
   }

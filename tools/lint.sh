@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# clang-tidy over the sources of build/release (src, tools, tests); arguments limit it to matching paths,
+# clang-tidy over the sources of build/release (src, tools, tests, cuda); arguments limit it to matching paths,
 # e.g. tools/lint.sh src/sim. Uses the checks of .clang-tidy.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -11,9 +11,9 @@ if [[ -z $tidy ]]; then
 fi
 cmake --preset release > /dev/null
 
-# Sources of the compile commands only: what is not built here (CUDA) cannot be parsed.
+# Sources of the compile commands only: kernels (.cu) it does not parse.
 root=$(pwd -P)
-pattern="^$root/(src|tools|tests)/.*\.cpp$"
+pattern="^$root/(src|tools|tests|cuda)/.*\.cpp$"
 mapfile -t files < <(
   sed -n 's/^ *"file": "\(.*\)".*$/\1/p' build/release/compile_commands.json | sort -u |
     grep -E "$pattern" || true

@@ -174,6 +174,7 @@ void refineAll(std::vector<Candidate>& candidates,
     moving = alignSurfaces(candidates, moving, database, scene, reach);
   }
   std::vector<RenderTask> tasks;
+  tasks.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
     tasks.push_back(surfaceOf(candidate, objectOf(candidate, database), scene));
   }

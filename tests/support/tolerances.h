@@ -19,8 +19,8 @@ inline constexpr int kDeviceUlps = 4;
 /// Farthest corner of an aligned part between two orders of the same sums in double [mm]: 1e-12 a
 /// step, unless a point finds another partner for it.
 inline constexpr double kAlignedMm = 1.0e-6;
-/// The same with points of surfaces that two rasterisers made [mm]: they differ at borders, and a few
-/// points find other partners.
+/// The same with points of surfaces that two rasterisers made [mm]: they differ at borders, and a
+/// few points find other partners.
 inline constexpr double kAlignedSurfaceMm = 0.5;
 /// Shares, scores and residuals [mm] of a verdict: sums of a few thousand doubles in another order.
 inline constexpr double kVerdict = 1.0e-12;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -30,7 +31,8 @@ std::string share(double amount, double ms, double ceiling_per_s) {
 }
 
 double at(const std::vector<double>& sorted, double quantile) {
-  return sorted[static_cast<std::size_t>(quantile * static_cast<double>(sorted.size() - 1) + 0.5)];
+  return sorted[static_cast<std::size_t>(
+      std::lround(quantile * static_cast<double>(sorted.size() - 1)))];
 }
 
 }  // namespace

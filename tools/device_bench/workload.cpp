@@ -50,7 +50,8 @@ void Workload::makeTasks() {
   std::stable_sort(kept.begin(), kept.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.error < b.error;
   });
-  const auto most = static_cast<std::size_t>(options.kept_per_start * options.starts);
+  const auto most =
+      static_cast<std::size_t>(options.kept_per_start) * static_cast<std::size_t>(options.starts);
   kept.resize(std::min(kept.size(), most));
   points.reserve(kept.size());
   IcpOptions icp;
@@ -107,6 +108,7 @@ Work searchWork(const Workload& load, StageSet& host) {
     };
     while (std::any_of(states.begin(), states.end(), running)) {
       std::vector<glm::vec3> candidates;
+      candidates.reserve(states.size());
       for (const SimplexState& s : states)
         candidates.emplace_back(s.candidate.x, s.candidate.y, s.candidate.z);
       const std::vector<ErrorTerms> terms =
