@@ -10,6 +10,13 @@ std::string versionText(int version) {
   return std::to_string(version / 1000) + "." + std::to_string(version % 1000 / 10);
 }
 
+constexpr int kLeastCapability = 75;
+
+/// 75 -> "7.5"
+std::string capabilityText(int capability) {
+  return std::to_string(capability / 10) + "." + std::to_string(capability % 10);
+}
+
 std::string reasonOf(cudaError_t result) {
   return std::string(cudaGetErrorName(result)) + " (" + cudaGetErrorString(result) + ")";
 }
@@ -48,6 +55,15 @@ Status status() {
     return result;
   }
   for (int index = 0; index < count; ++index) result.devices.push_back(describe(index));
+  int current = 0;
+  static_cast<void>(cudaGetDevice(&current));
+  const DeviceInfo& device = result.devices.at(static_cast<std::size_t>(current));
+  if (device.capability < kLeastCapability) {
+    result.missing = "CUDA device " + std::to_string(current) + " (" + device.name +
+                     ") is of compute capability " + capabilityText(device.capability) +
+                     ", the kernels need " + capabilityText(kLeastCapability) +
+                     "; choose another one by CUDA_VISIBLE_DEVICES";
+  }
   return result;
 }
 
