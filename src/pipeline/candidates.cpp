@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "pipeline/pose_distance.h"
 #include "pipeline/scene_window.h"
 
 namespace rangepose {
@@ -64,12 +65,13 @@ std::vector<Candidate> takeInTurn(const Order& first,
                                   const ReferenceObject& object,
                                   int count) {
   constexpr double kSame = 0.04;
+  const PoseDistance distance(object);
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (const Candidate* candidate : {first[i], second[i]}) {
       if (static_cast<int>(kept.size()) >= count) return kept;
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-        return distanceBetween(object, other.rough, candidate->rough) < kSame;
+        return distance.below(kSame, other.rough, candidate->rough);
       });
       if (!known) kept.push_back(*candidate);
     }
@@ -78,16 +80,6 @@ std::vector<Candidate> takeInTurn(const Order& first,
 }
 
 }  // namespace
-
-double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b) {
-  double sum = 0.0;
-  for (int corner = 0; corner < 6; ++corner) {
-    glm::dvec3 point = object.center_mm;
-    point[corner / 2] += (corner % 2 == 0 ? 0.6 : -0.6) * object.radius_mm;
-    sum += glm::distance(a * point, b * point);
-  }
-  return sum / 6.0 / object.diameter_mm;
-}
 
 double visibleArea(const ReferenceObject& object, int view) {
   const float area_px = object.views[static_cast<std::size_t>(view)].area_px;
@@ -140,15 +132,15 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
   std::stable_sort(candidates.begin(),
                    candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
+  const std::vector<PoseDistance> distances(database.objects.begin(), database.objects.end());
   std::vector<Candidate> best;
   std::map<std::pair<int, int>, int> taken;
   for (const Candidate& candidate : candidates) {
     int& taken_here = taken[{candidate.object, candidate.window}];
     if (taken_here >= count) continue;
-    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+    const PoseDistance& distance = distances[static_cast<std::size_t>(candidate.object)];
     const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      return other.object == candidate.object &&
-             distanceBetween(object, other.pose, candidate.pose) < kSame;
+      return other.object == candidate.object && distance.below(kSame, other.pose, candidate.pose);
     });
     if (known) continue;
     best.push_back(candidate);

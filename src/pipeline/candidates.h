@@ -5,9 +5,6 @@
 
 namespace rangepose {
 
-/// Mean distance of the object's extreme points in two poses, as a share of its diameter.
-double distanceBetween(const ReferenceObject& object, const Pose& a, const Pose& b);
-
 /// Area of a view [mm^2].
 double visibleArea(const ReferenceObject& object, int view);
 /// Mean area of the object's views [mm^2].

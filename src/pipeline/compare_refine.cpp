@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "pipeline/candidates.h"
+#include "pipeline/pose_distance.h"
 
 namespace rangepose {
 namespace {
@@ -97,9 +98,9 @@ class RefineComparison {
   void poses(const std::pair<Poses, Poses>& both, Tally& tally) const {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       const ReferenceObject& object = objectOf(candidates_[i]);
-      tally.add(object.diameter_mm * distanceBetween(object,
-                                                     both.first[i].camera_from_object,
-                                                     both.second[i].camera_from_object));
+      const PoseDistance distance(object);
+      tally.add(object.diameter_mm *
+                distance(both.first[i].camera_from_object, both.second[i].camera_from_object));
     }
   }
   using Scores = std::vector<CheckResult>;

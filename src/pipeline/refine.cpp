@@ -7,6 +7,7 @@
 
 #include "core/parallel.h"
 #include "pipeline/candidates.h"
+#include "pipeline/pose_distance.h"
 
 namespace rangepose {
 namespace {
@@ -155,7 +156,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   for (std::size_t i = 0; i < moving.size(); ++i) {
     Candidate& candidate = candidates[moving[i]];
     const Pose before = std::exchange(candidate.pose, aligned[i].camera_from_object);
-    const double moved = distanceBetween(objectOf(candidate, database), before, candidate.pose);
+    const double moved = PoseDistance(objectOf(candidate, database))(before, candidate.pose);
     if (!(moved < kStill)) still_moving.push_back(moving[i]);
   }
   return still_moving;

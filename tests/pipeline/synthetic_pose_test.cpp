@@ -46,7 +46,9 @@ ReferenceDatabase databaseOf(const std::string& part) {
   ReferenceDatabase database;
   database.objects.push_back(describeObject(
       readMesh(path, LengthUnit::kMillimetre), 1, kSize, uniformRotations(kViews), options));
-  host::renderReferences(database.objects.front(), options, {});
+  ReferenceObject& object = database.objects.front();
+  object.symmetries = findSymmetries(object.mesh);
+  host::renderReferences(object, options, {});
   return database;
 }
 

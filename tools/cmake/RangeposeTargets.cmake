@@ -46,6 +46,10 @@ function(rangepose_test name)
   target_compile_definitions(rangepose_${name}_test PRIVATE
     RP_SOURCE_DIR="${PROJECT_SOURCE_DIR}" RP_MODELS_DIR="${PROJECT_SOURCE_DIR}/models")
   rangepose_compile_options(rangepose_${name}_test)
+  set(seconds 600)
+  if(RANGEPOSE_SANITIZE)
+    set(seconds 3600)  # sanitizers make the trials some ten times slower
+  endif()
   gtest_discover_tests(rangepose_${name}_test TEST_PREFIX "${name}/" DISCOVERY_TIMEOUT 60
-                       PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT 600)
+                       PROPERTIES LABELS "${ARG_LABEL}" TIMEOUT ${seconds})
 endfunction()

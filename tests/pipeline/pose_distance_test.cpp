@@ -1,0 +1,83 @@
+// Duplicates are merged by this distance: too large between symmetric copies, and copies of one
+// answer take the place of others; too small between different poses, and the right one is lost.
+#include "pipeline/pose_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+namespace rangepose {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+ReferenceObject objectWith(const Symmetries& symmetries) {
+  ReferenceObject object;
+  object.symmetries = symmetries;
+  object.center_mm = {5.0, -3.0, 8.0};
+  object.radius_mm = 50.0;
+  object.diameter_mm = 100.0;
+  return object;
+}
+
+/// A rotation about a line through the object's centre.
+Pose turned(const ReferenceObject& object, const glm::dvec3& vector) {
+  const glm::dmat3 rotation = rotationFromVector(vector);
+  return {rotation, object.center_mm - rotation * object.center_mm};
+}
+
+const Pose kSomewhere{rotationFromVector({0.4, -1.1, 0.7}), {30.0, -20.0, 700.0}};
+
+TEST(PoseDistanceTest, ShiftCountsAsShareOfTheDiameter) {
+  const ReferenceObject object = objectWith({});
+  Pose shifted = kSomewhere;
+  shifted.translation_mm += glm::dvec3(0.0, 3.0, 4.0);
+  EXPECT_NEAR(PoseDistance(object)(kSomewhere, shifted), 0.05, 1e-12);
+}
+
+TEST(PoseDistanceTest, TurnOfAPartWithoutSymmetryCounts) {
+  const ReferenceObject object = objectWith({});
+  const Pose half = kSomewhere * turned(object, {0.0, 0.0, kPi});
+  // Four of six points, 30 mm from the axis, move by 60 mm.
+  EXPECT_NEAR(PoseDistance(object)(kSomewhere, half), 4.0 * 60.0 / 6.0 / 100.0, 1e-12);
+}
+
+TEST(PoseDistanceTest, SymmetricCopiesAreTheSame) {
+  ReferenceObject object = objectWith({});
+  const Pose half = turned(object, {0.0, 0.0, kPi});
+  object.symmetries.discrete = {half};
+  const PoseDistance distance(object);
+  EXPECT_NEAR(distance(kSomewhere, kSomewhere * half), 0.0, 1e-12);
+  EXPECT_TRUE(distance.below(0.01, kSomewhere, kSomewhere * half));
+  const Pose quarter = turned(object, {0.0, 0.0, 0.5 * kPi});
+  EXPECT_GT(distance(kSomewhere, kSomewhere * quarter), 0.2);
+  EXPECT_FALSE(distance.below(0.1, kSomewhere, kSomewhere * quarter));
+}
+
+TEST(PoseDistanceTest, TurnAboutTheAxisOfARevolutionIsNoDifference) {
+  ReferenceObject object = objectWith({});
+  object.symmetries.continuous = {{{0.0, 0.0, 1.0}, object.center_mm}};
+  const PoseDistance distance(object);
+  EXPECT_NEAR(distance(kSomewhere, kSomewhere * turned(object, {0.0, 0.0, 1.234})), 0.0, 1e-12);
+  EXPECT_GT(distance(kSomewhere, kSomewhere * turned(object, {0.3, 0.0, 0.0})), 0.08);
+  // Ends alike or not.
+  const Pose over = turned(object, {kPi, 0.0, 0.0});
+  EXPECT_GT(distance(kSomewhere, kSomewhere * over), 0.5);
+  object.symmetries.discrete = {over};
+  EXPECT_NEAR(PoseDistance(object)(kSomewhere, kSomewhere * over), 0.0, 1e-12);
+}
+
+TEST(PoseDistanceTest, BelowAgreesWithTheDistance) {
+  ReferenceObject object = objectWith({});
+  object.symmetries.discrete = {turned(object, {0.0, kPi, 0.0})};
+  const PoseDistance distance(object);
+  for (int i = 0; i < 200; ++i) {
+    const double t = 0.01 * i;
+    Pose other = kSomewhere * turned(object, {0.3 * t, t, -0.1 * t});
+    other.translation_mm += glm::dvec3(2.0 * t, -t, 3.0 * t);
+    EXPECT_EQ(distance.below(0.04, kSomewhere, other), distance(kSomewhere, other) < 0.04) << i;
+  }
+}
+
+}  // namespace
+}  // namespace rangepose
