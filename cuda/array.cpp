@@ -95,8 +95,11 @@ Array& Array::operator=(Array&& other) noexcept {
 }
 
 Array::~Array() {
+  if (array_ == nullptr) return;
+  // Kernels that use its texture and surface may still be queued.
+  cudaDeviceSynchronize();
   access_ = ArrayAccess();
-  if (array_ != nullptr) cudaFreeArray(array_);
+  cudaFreeArray(array_);
 }
 
 void Array::upload(const void* elements, cudaStream_t stream) {

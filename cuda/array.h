@@ -31,7 +31,7 @@ class ArrayAccess {
   ImageView view_;
 };
 
-/// Owns its memory. Allocating waits for the device: not inside of a frame.
+/// Owns its memory. Allocating and freeing wait for the device: not inside of a frame.
 class Array {
  public:
   /// Content undefined.

@@ -17,6 +17,9 @@ extern "C" cudaError_t CUDARTAPI cudaGraphicsGLRegisterImage(cudaGraphicsResourc
 namespace rangepose::cuda {
 namespace {
 
+/// Of one texture: a frame that maps it again and again waits once in so many times.
+constexpr std::size_t kMostPast = 8;
+
 gles::Format formatOf(Element element) {
   switch (element) {
     case Element::kFloat:
@@ -35,19 +38,26 @@ class SharedTexture::Registration {
  public:
   Registration(Element kind, int width, int height)
       : element(kind), texture(formatOf(kind), width, height) {
+    past.reserve(kMostPast);
     RP_CUDA(cudaGraphicsGLRegisterImage(
         &resource, texture.id(), GL_TEXTURE_2D, cudaGraphicsRegisterFlagsSurfaceLoadStore));
   }
   Registration(const Registration&) = delete;
   Registration& operator=(const Registration&) = delete;
   ~Registration() {
-    if (resource != nullptr) cudaGraphicsUnregisterResource(resource);
+    if (resource == nullptr) return;
+    // Kernels that use it may still be queued. In whichever stream: that may be gone.
+    cudaDeviceSynchronize();
+    past.clear();
+    cudaGraphicsUnregisterResource(resource);
   }
 
   Element element;
   gles::Texture texture;
   cudaGraphicsResource_t resource = nullptr;
   bool mapped = false;
+  /// Of mappings that are over, but not for the kernels that are queued with them.
+  std::vector<ArrayAccess> past;
 };
 
 SharedTexture::SharedTexture(Element element, int width, int height)
@@ -92,9 +102,19 @@ MappedTextures::~MappedTextures() { unmap(); }
 
 void MappedTextures::unmap() noexcept {
   if (resources_.empty()) return;
+  for (std::size_t i = 0; i < access_.size(); ++i) retire(i);
   access_.clear();
   cudaGraphicsUnmapResources(static_cast<int>(resources_.size()), resources_.data(), stream_);
   for (const auto& registration : registrations_) registration->mapped = false;
+}
+
+void MappedTextures::retire(std::size_t index) noexcept {
+  std::vector<ArrayAccess>& past = registrations_[index]->past;
+  if (past.size() >= kMostPast) {
+    cudaStreamSynchronize(stream_);
+    past.clear();
+  }
+  past.push_back(std::move(access_[index]));
 }
 
 void requireSharing() {

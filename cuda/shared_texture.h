@@ -29,7 +29,9 @@ class SharedTexture {
 };
 
 /// While it lives CUDA works on the textures and GL keeps off. Mapping waits (on the device) for
-/// what GL has drawn, unmapping for what CUDA does in the stream.
+/// what GL has drawn, unmapping for what CUDA does in the stream. Kernels may be queued when it
+/// goes: the texture and surface objects that they were given are kept until they are through.
+/// A texture is to be mapped in one stream only.
 class MappedTextures {
  public:
   /// All at once: mapping one by one costs as much for each. A texture is mapped only once at a
@@ -45,6 +47,7 @@ class MappedTextures {
 
  private:
   void unmap() noexcept;
+  void retire(std::size_t index) noexcept;
 
   std::vector<std::shared_ptr<SharedTexture::Registration>> registrations_;
   std::vector<cudaGraphicsResource_t> resources_;

@@ -35,6 +35,12 @@ class CudaStages : public StageSet {
   CudaStages& operator=(const CudaStages&) = delete;
   ~CudaStages() override {
     if (context_ != nullptr) context_->makeCurrentIfPossible();
+    try {
+      // What is queued reads what goes now.
+      workspace_.synchronize();
+    } catch (const Error&) {
+      // Nothing runs any more where a kernel has failed.
+    }
   }
 
   std::string name() const override { return "cuda"; }

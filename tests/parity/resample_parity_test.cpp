@@ -96,5 +96,26 @@ TEST_P(ResampleParity, PreparedChannelsAreThoseOfTheHost) {
   }
 }
 
+/// A stage that does not wait must leave alone what the kernels it has queued still use.
+TEST_P(ResampleParity, WindowsPreparedInARowAreWholeWhenTheyAreReadAfterwards) {
+  constexpr int kWindows = 16;
+  constexpr int kRounds = 4;
+  const DepthImage image = depthImage(120, 90, 6, false);
+  const auto cameraOf = [&](int i) { return orthoCamera(image, 64, 64, 0.8 + 0.05 * i, 0.02 * i); };
+  std::vector<SceneChannels> expected;
+  for (int i = 0; i < kWindows; ++i)
+    expected.push_back(host().prepare(image, {}, cameraOf(i), {}, {})->download());
+  for (int round = 0; round < kRounds; ++round) {
+    std::vector<std::unique_ptr<ResidentScene>> scenes;
+    for (int i = 0; i < kWindows; ++i)
+      scenes.push_back(subject().prepare(image, {}, cameraOf(i), {}, {}));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+      const SceneChannels actual = scenes[i]->download();
+      EXPECT_EQ(differences(actual.range_px, expected[i].range_px), 0) << round << ", " << i;
+      EXPECT_EQ(differences(actual.edges, expected[i].edges), 0) << round << ", " << i;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace rangepose
