@@ -36,7 +36,7 @@ class DeviceImage {
 /// While it lives CUDA works on a list of images: those that are shared are mapped, all at once.
 class Frame {
  public:
-  /// The images must outlive it.
+  /// The images must outlive it; one may be named more than once.
   Frame(const std::vector<const DeviceImage*>& images, cudaStream_t stream);
 
   /// Throws Error for an image that is not in the list.
@@ -60,19 +60,26 @@ class Frame {
 };
 
 /// Images that come and go with each frame are kept, so that nothing is allocated or registered
-/// but in the first; those that were free for longest go when there are too many.
+/// but in the first; those that were free for longest go when there are too many. All of them go
+/// with the pool: whoever lets it go knows which GL context they are of.
 class ImagePool {
  public:
   explicit ImagePool(DeviceImage::Memory memory) : memory_(memory) {}
 
-  /// Goes back to the pool by itself; the pool may be gone by then. Content undefined.
+  /// Goes back to the pool by itself. The pool may be gone by then, but the image is too. Content
+  /// undefined.
   using Lease = std::shared_ptr<DeviceImage>;
   Lease take(Element element, int width, int height);
 
  private:
-  using Free = std::vector<std::unique_ptr<DeviceImage>>;
+  struct Images {
+    std::vector<std::unique_ptr<DeviceImage>> all;
+    std::vector<DeviceImage*> free;
+  };
+  void makeRoom();
+
   DeviceImage::Memory memory_;
-  std::shared_ptr<Free> free_ = std::make_shared<Free>();
+  std::shared_ptr<Images> images_ = std::make_shared<Images>();
 };
 
 }  // namespace rangepose::cuda

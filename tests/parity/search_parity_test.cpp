@@ -237,6 +237,19 @@ TEST_P(SearchParity, TheSameSearchTwiceIsBitIdentical) {
   }
 }
 
+TEST_P(SearchParity, AWindowMayBeSearchedTwiceInOneCall) {
+  ReferenceObject object = test::objectOf(test::bracketBoxes(), 5, 64, 31);
+  renderReferences(object);
+  const SceneChannels window = windowWith(object, 2, 30.0f, 1);
+  const std::unique_ptr<ResidentScene> scene = subject().upload(window);
+  const float seed = window.range_px.at(64, 64);
+  const std::vector<Hypothesis> found =
+      subject().search(object, {scene.get(), scene.get()}, {seed, seed}, {});
+  const std::size_t views = object.views.size();
+  ASSERT_EQ(found.size(), 2 * views);
+  for (std::size_t i = 0; i < views; ++i) EXPECT_EQ(found[i].error, found[i + views].error);
+}
+
 TEST_P(SearchParity, ScenesOfAnotherPathAreRefused) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 2, 64, 31);
   renderReferences(object);
