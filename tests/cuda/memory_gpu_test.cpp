@@ -29,7 +29,8 @@ class MemoryGpuTest : public testing::TestWithParam<const char*> {
       path_ = std::make_unique<Path>(openPath({parseInterop(GetParam()), false}));
       stream_.emplace();
     } catch (const Unavailable& error) {
-      if (std::string(GetParam()) == "copy" && test::backendRequired("cuda")) {
+      const std::string interop = GetParam();
+      if (test::backendRequired(interop == "copy" ? "cuda" : "cuda_" + interop)) {
         FAIL() << error.what();
       }
       GTEST_SKIP() << error.what();
@@ -72,6 +73,19 @@ TEST_P(MemoryGpuTest, AFrameKnowsItsImagesAlone) {
   const Frame frame({&in}, stream());
   EXPECT_EQ(frame.view(in).width, 4);
   EXPECT_THROW(frame.view(out), Error);
+}
+
+TEST_P(MemoryGpuTest, AFrameTakesAnImageThatIsNamedTwice) {
+  const Image<float> sent = ramp(4, 4);
+  Image<float> back(4, 4);
+  const DeviceImage image(memory(), Element::kFloat, 4, 4);
+  const DeviceImage other(memory(), Element::kFloat, 4, 4);
+  const Frame frame({&image, &image, &other}, stream());
+  frame.upload(image, sent.data());
+  frame.upload(other, back.data());
+  frame.download(image, back.data());
+  stream_->synchronize();
+  EXPECT_EQ(back, sent);
 }
 
 TEST_P(MemoryGpuTest, ThePoolGivesAnImageAgainOnceItIsBack) {

@@ -49,10 +49,11 @@ inline ParitySubject openSubject(const std::string& name) {
   return subject;
 }
 
-/// Whether a path that is missing is a failure. One kind of interop may be missing: another is then
-/// in use.
+/// Whether a path that is missing is a failure. "cuda" alone does not ask for a kind of interop:
+/// another is then in use.
 inline bool subjectRequired(const std::string& name) {
   if (name == "glsl") return backendRequired("gles");
+  if (name == "cuda_gles" || name == "cuda_gl") return backendRequired(name);
   return (name == "cuda" || name == "cuda_copy" || name == "cuda_staged") &&
          backendRequired("cuda");
 }
@@ -71,7 +72,7 @@ class Parity : public testing::TestWithParam<const char*> {
     host_ = makeHostStages();
   }
   void TearDown() override {
-    if (!subject_.stages || HasFatalFailure()) return;
+    if (!subject_.stages || IsSkipped() || HasFatalFailure()) return;
     const DeviceWork work = subject_.stages->work();
     EXPECT_GT(work.draws + work.launches, 0) << "nothing ran on the device";
     EXPECT_EQ(host_->work().draws, 0);
@@ -81,6 +82,8 @@ class Parity : public testing::TestWithParam<const char*> {
   StageSet& host() { return *host_; }
   bool onGlsl() const { return std::string(GetParam()).rfind("glsl", 0) == 0; }
   gles::Context& context() { return *subject_.context; }
+  /// Whether the subject renders by GL: where there is none, the host does it for CUDA.
+  bool drawsByGl() const { return subject_.context != nullptr; }
   /// By GL where the subject has it, else on the host.
   void renderReferences(ReferenceObject& object) {
     if (subject_.context) {

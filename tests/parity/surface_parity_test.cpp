@@ -11,7 +11,14 @@
 namespace rangepose {
 namespace {
 
-class SurfaceParity : public test::Parity {};
+class SurfaceParity : public test::Parity {
+ protected:
+  void SetUp() override {
+    Parity::SetUp();
+    if (IsSkipped() || HasFatalFailure()) return;
+    if (!drawsByGl()) GTEST_SKIP() << "no hardware GL: the host draws";
+  }
+};
 RP_PARITY_SUBJECTS(SurfaceParity);
 
 Camera perspective() {

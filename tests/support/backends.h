@@ -14,7 +14,8 @@
 
 namespace rangepose::test {
 
-/// Whether the comma-separated list RP_REQUIRE_BACKENDS (e.g. "gles,cuda") holds `name`.
+/// Whether the comma-separated list RP_REQUIRE_BACKENDS (e.g. "gles,cuda") holds `name`: gles,
+/// cuda, or a kind of interop by which CUDA shares textures, cuda_gles or cuda_gl.
 inline bool backendRequired(const std::string& name) {
   const char* list = std::getenv("RP_REQUIRE_BACKENDS");
   std::istringstream words(list == nullptr ? "" : list);
