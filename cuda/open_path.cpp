@@ -54,6 +54,9 @@ std::unique_ptr<gles::Context> openSharing(Interop interop) {
     std::string reason;
     try {
       auto context = std::make_unique<gles::Context>(source, options);
+      if (context->info().software) {
+        throw Unavailable("only software GL (" + context->info().renderer + ")");
+      }
       requireSharing();
       context->checkGl("a texture shared with CUDA");
       return context;
@@ -75,7 +78,7 @@ std::unique_ptr<gles::Context> openDrawing(std::string& note) {
     auto context = std::make_unique<gles::Context>(contextOptions(gles::Api::kGles));
     if (!context->info().software) return context;
     note += "; GL is only in software (" + context->info().renderer + "), the host draws";
-  } catch (const Unavailable& error) {
+  } catch (const Error& error) {
     note += "; the host draws: " + std::string(error.what());
   }
   return nullptr;
