@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/error.h"
+
 namespace rangepose::cuda {
 
 template <typename Task>
@@ -89,6 +91,7 @@ std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const RenderTask& task = tasks[i];
     task.alignment.check();
+    RP_CHECK(task.max_points >= 1, "a surface is aligned by one point at least");
     const PixelBox box = grid.box(i, task.window);
     picks.push_back({frame.view(image), box.x0, box.y0, task.window, task.max_points});
     own.push_back({first,

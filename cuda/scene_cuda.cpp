@@ -1,6 +1,7 @@
 #include "cuda/scene_cuda.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "core/error.h"
@@ -17,6 +18,13 @@ std::vector<float> foregroundOf(const DepthImage& image, const Image<std::uint8_
         return keeps != 0 ? mm : 0.0f;
       });
   return kept;
+}
+
+/// Copies take their size from the camera.
+template <typename AnyCamera>
+void requireSize(const Image<float>& image, const AnyCamera& camera, const std::string& what) {
+  RP_CHECK(image.width() == camera.width && image.height() == camera.height,
+           what + ": another size than its camera's");
 }
 
 std::size_t pixelsOf(const DeviceImage& image) {
@@ -72,7 +80,7 @@ Workspace::Workspace(gles::Context* context, DeviceImage::Memory memory)
 }
 
 Workspace::~Workspace() {
-  // The images that go now may be textures.
+  // The images that go now, also those that scenes still hold, may be textures.
   if (context_ != nullptr) context_->makeCurrentIfPossible();
 }
 
@@ -122,6 +130,7 @@ CudaDepth::CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, W
     : camera_(image.camera),
       masked_(!keep.empty()),
       buffers_(workspace.takeDepth(image.depth_mm.size())) {
+  requireSize(image.depth_mm, camera_, "depth image");
   RP_CHECK(keep.empty() || keep.size() == image.depth_mm.size(),
            "the mask has another size than the depth image");
   const cudaStream_t stream = workspace.begin();
@@ -167,6 +176,9 @@ std::unique_ptr<CudaScene> prepareScene(Workspace& workspace,
 }
 
 std::unique_ptr<CudaScene> uploadScene(Workspace& workspace, const SceneChannels& channels) {
+  requireSize(channels.range_px, channels.camera, "range image");
+  requireSize(channels.edges, channels.camera, "edge image");
+  requireSize(channels.distance_px, channels.camera, "distance image");
   const cudaStream_t stream = workspace.begin();
   auto scene = std::make_unique<CudaScene>(workspace, channels.camera);
   const Frame frame({&scene->range(), &scene->edges(), &scene->distance()}, stream);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/error.h"
 #include "core/parallel.h"
 
 namespace rangepose {
@@ -85,6 +86,9 @@ std::vector<CheckResult> StageSet::judge(const ResidentDepth& depth,
 std::vector<IcpResult> StageSet::alignSurfaces(const ResidentDepth& depth,
                                                const std::vector<RenderTask>& tasks) {
   const auto& own = static_cast<const HostDepth&>(depth);
+  for (const RenderTask& task : tasks) {
+    RP_CHECK(task.max_points >= 1, "a surface is aligned by one point at least");
+  }
   const auto render = [&](const RenderTask& task) {
     const Camera& camera = own.depth.camera;
     const Image<SurfaceTexel> surface =

@@ -109,6 +109,14 @@ TEST_P(RefineParity, RenderedSurfacesAreJudgedAlike) {
   }
 }
 
+TEST_P(RefineParity, SurfacesWithoutPointsAreRefused) {
+  std::vector<RenderTask> tasks = renderTasks();
+  tasks.back().max_points = 0;
+  EXPECT_THROW(host().alignSurfaces(*at_host_, tasks), Error);
+  EXPECT_THROW(subject().alignSurfaces(*at_subject_, tasks), Error);
+  static_cast<void>(subject().median(scene_.depth.depth_mm));  // for the fixture's proof of work
+}
+
 TEST_P(RefineParity, NothingToDoGivesNothing) {
   EXPECT_TRUE(subject().align(*at_subject_, {}).empty());
   EXPECT_TRUE(subject().judge(*at_subject_, {}).empty());
