@@ -50,6 +50,8 @@ void SurfacePainter::resize(const TileGrid& grid) {
   if (image_ && image_->width() >= width && image_->height() >= height) return;
   const int new_width = std::max(width, image_ ? image_->width() : 0);
   const int new_height = std::max(height, image_ ? image_->height() : 0);
+  // What is queued may still read the old one.
+  workspace_.synchronize();
   image_.reset();
   image_.emplace(workspace_.memory(), Element::kFloat4, new_width, new_height);
   if (!device_) return;
