@@ -48,6 +48,11 @@ struct PathOptions {
 
 /// The stages with what they need to live. The context draws surfaces; it outlives the stages.
 struct Path {
+  Path() = default;
+  Path(Path&&) noexcept = default;
+  /// Lets go of its stages before their context.
+  Path& operator=(Path&& other) noexcept;
+
   std::unique_ptr<gles::Context> context;  ///< null: no GL here, the host draws
   std::unique_ptr<StageSet> stages;
   Interop interop = Interop::kAuto;  ///< what is in use, never kAuto

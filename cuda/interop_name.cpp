@@ -1,4 +1,5 @@
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "cuda/cuda_path.h"
@@ -24,6 +25,14 @@ const char* nameOf(Interop interop) {
       return "copy";
   }
   return "";
+}
+
+Path& Path::operator=(Path&& other) noexcept {
+  stages = std::move(other.stages);
+  context = std::move(other.context);
+  interop = other.interop;
+  interop_note = std::move(other.interop_note);
+  return *this;
 }
 
 }  // namespace rangepose::cuda

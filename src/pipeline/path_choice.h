@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "cuda/cuda_path.h"
 #include "gles/context.h"
@@ -18,6 +19,17 @@ PathRequest parsePathRequest(std::string_view text);
 
 /// The stages of a path with what they run on.
 struct PathStages {
+  PathStages() = default;
+  PathStages(std::unique_ptr<gles::Context> its_context, std::unique_ptr<StageSet> its_stages)
+      : context(std::move(its_context)), stages(std::move(its_stages)) {}
+  PathStages(PathStages&&) noexcept = default;
+  /// Lets go of its stages before their context.
+  PathStages& operator=(PathStages&& other) noexcept {
+    stages = std::move(other.stages);
+    context = std::move(other.context);
+    return *this;
+  }
+
   std::unique_ptr<gles::Context> context;  ///< of the glsl and cuda paths; outlives the stages
   std::unique_ptr<StageSet> stages;
 };
