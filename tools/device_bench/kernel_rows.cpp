@@ -1,6 +1,7 @@
 // Kernels alone, timed by events on the device: what the calls of StageSet take without uploads,
 // downloads and waiting.
 #include "cuda/buffer.h"
+#include "cuda/check.h"
 #include "cuda/packed_views.h"
 #include "cuda/scene_cuda.h"
 #include "cuda/search.h"
@@ -43,8 +44,11 @@ class KernelRows {
   int windowWidth() const { return load_.first().windows.front().camera.width; }
 
   template <typename Launch>
-  void add(const std::string& what, const Work& work, const Launch& launch) {
-    Row row = timed(what, "cuda, kernels alone", runs_, [&] {
+  void add(const std::string& what,
+           const Work& work,
+           const Launch& launch,
+           const std::string& path = "cuda, kernels alone") {
+    Row row = timed(what, path, runs_, [&] {
       begin_.record(stream_);
       launch();
       end_.record(stream_);
@@ -74,22 +78,27 @@ class KernelRows {
     texture.upload(atlas.data(), stream_);
     const std::size_t views = load_.object().views.size();
     cuda::StagedSearch search(static_cast<int>(views), load_.object().size);
-    add("staged search", work, [&] {
-      for (std::size_t i = 0; i < windows_.size(); ++i) {
-        const cuda::CudaScene& scene = *windows_[i];
-        const cuda::Frame mapped({&scene.range(), &scene.distance()}, stream_);
-        const cuda::StagedInput in{object_,
-                                   texture.view(),
-                                   mapped.view(scene.range()),
-                                   mapped.view(scene.distance()),
-                                   setup_};
-        search.search(in,
-                      load_.first().seed_range_px[i],
-                      static_cast<int>(i),
-                      answers.data() + i * views,
-                      stream_);
-      }
-    });
+    add(
+        "staged search",
+        work,
+        [&] {
+          for (std::size_t i = 0; i < windows_.size(); ++i) {
+            const cuda::CudaScene& scene = *windows_[i];
+            const cuda::Frame mapped({&scene.range(), &scene.distance()}, stream_);
+            const cuda::StagedInput in{object_,
+                                       texture.view(),
+                                       mapped.view(scene.range()),
+                                       mapped.view(scene.distance()),
+                                       setup_};
+            search.search(in,
+                          load_.first().seed_range_px[i],
+                          static_cast<int>(i),
+                          answers.data() + i * views,
+                          stream_);
+          }
+        },
+        // Only the device knows how many steps it takes, so the host asks now and then.
+        "cuda, kernels and the host's waits in between");
   }
 
   const Workload& load_;
@@ -105,6 +114,8 @@ class KernelRows {
 };
 
 }  // namespace
+
+void waitForDevice() { RP_CUDA(cudaDeviceSynchronize()); }
 
 std::vector<Row> kernelRows(const Workload& load, int runs) { return KernelRows(load, runs).all(); }
 

@@ -1,7 +1,10 @@
 // rangepose_device_bench: every stage on every path of this machine, as a Markdown table.
 //   rangepose_device_bench [--views 1024] [--starts 3] [--runs 50] [--out FILE]
-// Paths that are not here are left out and named.
+//   rangepose_device_bench --paths      names the paths with their interop, measures nothing
+// Paths that are not here are left out and named. Exit code 1: a path failed, or differs from the
+// host by more than its tolerance; the report says which.
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <sstream>
 #include <string>
@@ -19,6 +22,7 @@ struct Arguments {
   int starts = 3;
   int runs = 50;
   std::string out;
+  bool paths_only = false;
 };
 
 int number(const std::string& name, const std::string& text) {
@@ -35,6 +39,10 @@ int number(const std::string& name, const std::string& text) {
 
 Arguments parse(int argc, char** argv) {
   Arguments arguments;
+  if (argc == 2 && std::string(argv[1]) == "--paths") {
+    arguments.paths_only = true;
+    return arguments;
+  }
   for (int i = 1; i < argc; i += 2) {
     const std::string name = argv[i];
     if (i + 1 >= argc) throw Error(name + " needs a value");
@@ -54,23 +62,67 @@ Arguments parse(int argc, char** argv) {
   return arguments;
 }
 
+struct CudaVariant {
+  std::string name;
+  cuda::PathOptions options;
+};
+
+std::vector<CudaVariant> cudaVariants() {
+  return {{"cuda, fused", {}},
+          {"cuda, staged", {cuda::Interop::kAuto, true}},
+          {"cuda, copies", {cuda::Interop::kCopy, false}}};
+}
+
+std::string lineOf(const CudaVariant& variant, const cuda::Path& path) {
+  return "- " + variant.name + ": interop " + cuda::nameOf(path.interop) + ", " +
+         path.interop_note + "\n";
+}
+
+std::string lineOf(const gles::ContextInfo& glsl) {
+  return "- glsl: " + glsl.renderer + ", " + glsl.version + "\n";
+}
+
+/// `work`, and a line that says so where it does not get through. True where that is a failure:
+/// what is not here is none.
+bool tried(const std::string& name, std::string& lines, const std::function<void()>& work) {
+  try {
+    work();
+  } catch (const Unavailable& error) {
+    lines += "- " + name + ": not here (" + error.what() + ")\n";
+  } catch (const Error& error) {
+    lines += "- " + name + ": failed: " + error.what() + "\n";
+    return true;
+  }
+  return false;
+}
+
+bool printPaths() {
+  std::string lines;
+  bool failed = tried("glsl", lines, [&] { lines += lineOf(gles::Context().info()); });
+  for (const CudaVariant& variant : cudaVariants()) {
+    failed |= tried(
+        variant.name, lines, [&] { lines += lineOf(variant, cuda::openPath(variant.options)); });
+  }
+  std::cout << lines;
+  return failed;
+}
+
 class Report {
  public:
   explicit Report(const Arguments& arguments)
       : arguments_(arguments), load_(arguments.views, arguments.starts) {}
 
-  std::string run() {
-    text_ = "Elbow of models/, heap of 14 in 640x480, " + std::to_string(arguments_.views) +
-            " views of " + std::to_string(kSizePx) + "x" + std::to_string(kSizePx) + " px, " +
-            std::to_string(arguments_.starts) + " starts.\n\n";
+  /// True: a path failed or differs. What is measured is written after each path: the next one may
+  /// take the process with it.
+  bool run() {
     const std::unique_ptr<StageSet> host = makeHostStages();
-    measure({"host", host.get(), false, false});
-    withGlsl(*host);
-    withCuda(*host, "cuda, fused", {});
-    withCuda(*host, "cuda, staged", {cuda::Interop::kAuto, true});
-    withCuda(*host, "cuda, copies", {cuda::Interop::kCopy, false});
-    kernels();
-    return text_ + "\n" + markdownTable(rows_, ceilings_) + "\n" + kCounted + comparisons_;
+    attempt("host", [&] { measure({"host", host.get(), false, false, nullptr}); });
+    attempt("glsl", [&] { withGlsl(*host); });
+    for (const CudaVariant& variant : cudaVariants())
+      attempt(variant.name, [&] { withCuda(*host, variant); });
+    attempt("kernels alone", [&] { kernels(); });
+    if (arguments_.out.empty()) std::cout << text();
+    return failed_;
   }
 
  private:
@@ -81,6 +133,23 @@ class Report {
       "(reference pixels that the simplexes evaluate, 17 operations each). Shares are of the "
       "ceilings measured here.\n";
 
+  std::string text() const {
+    return "Elbow of models/, heap of 14 in 640x480, " + std::to_string(arguments_.views) +
+           " views of " + std::to_string(kSizePx) + "x" + std::to_string(kSizePx) + " px, " +
+           std::to_string(arguments_.starts) + " starts.\n\n" + lines_ + "\n" +
+           markdownTable(rows_, ceilings_) + "\n" + kCounted + comparisons_;
+  }
+  void write() const {
+    if (arguments_.out.empty()) return;
+    std::ofstream file(arguments_.out);
+    file << text();
+    file.close();
+    if (!file) throw Error(arguments_.out + ": cannot be written");
+  }
+  void attempt(const std::string& name, const std::function<void()>& work) {
+    failed_ |= tried(name, lines_, work);
+    write();
+  }
   void measure(const BenchPath& path) {
     std::cerr << "measuring " << path.name << '\n';
     for (const Row& row : stageRows(load_, path, arguments_.runs)) rows_.push_back(row);
@@ -89,29 +158,26 @@ class Report {
     const Comparison comparison =
         comparePaths(load_.depth, std::nullopt, load_.database, load_.options, host, subject);
     comparisons_ += "\n## host and " + name + "\n```\n" + comparisonTable(comparison) + "```\n";
+    if (!comparison.first_out_of_tolerance) return;
+    throw Error("differs from the host: " + *comparison.first_out_of_tolerance);
   }
   void withGlsl(StageSet& host) {
-    try {
-      gles::Context context;
-      const std::unique_ptr<StageSet> stages = gles::makeGlesStages(context);
-      text_ += "- glsl: " + context.info().renderer + ", " + context.info().version + "\n";
-      const bool software = context.info().software;
-      measure({"glsl", stages.get(), !software, software});
-      if (!software) compare(host, *stages, "glsl");
-    } catch (const Unavailable& error) {
-      text_ += "- glsl: not here (" + std::string(error.what()) + ")\n";
-    }
+    gles::Context context;
+    lines_ += lineOf(context.info());
+    const std::unique_ptr<StageSet> stages = gles::makeGlesStages(context);
+    const bool software = context.info().software;
+    measure({"glsl", stages.get(), !software, software, nullptr});
+    if (!software) compare(host, *stages, "glsl");
   }
-  void withCuda(StageSet& host, const std::string& name, const cuda::PathOptions& options) {
-    try {
-      const cuda::Path path = cuda::openPath(options);
-      text_ +=
-          "- " + name + ": interop " + cuda::nameOf(path.interop) + ", " + path.interop_note + "\n";
-      measure({name, path.stages.get(), true, false});
-      compare(host, *path.stages, name);
-    } catch (const Unavailable& error) {
-      text_ += "- " + name + ": not here (" + std::string(error.what()) + ")\n";
-    }
+  void withCuda(StageSet& host, const CudaVariant& variant) {
+    const cuda::Path path = cuda::openPath(variant.options);
+    lines_ += lineOf(variant, path);
+    BenchPath bench{variant.name, path.stages.get(), true, false, nullptr};
+#ifdef RP_HAVE_CUDA
+    bench.wait = waitForDevice;
+#endif
+    measure(bench);
+    compare(host, *path.stages, variant.name);
   }
   void kernels() {
 #ifdef RP_HAVE_CUDA
@@ -122,7 +188,7 @@ class Report {
     std::ostringstream line;
     line << "- ceilings: copy on the device " << ceilings_.bytes_per_s / 1.0e9
          << " GB/s, multiply-adds in float " << ceilings_.operations_per_s / 1.0e12 << " Tflop/s\n";
-    text_ += line.str();
+    lines_ += line.str();
 #endif
   }
 
@@ -130,22 +196,15 @@ class Report {
   Workload load_;
   std::vector<Row> rows_;
   Ceilings ceilings_;
-  std::string text_;
+  std::string lines_;
   std::string comparisons_;
+  bool failed_ = false;
 };
 
 int run(int argc, char** argv) {
   const Arguments arguments = parse(argc, argv);
-  const std::string text = Report(arguments).run();
-  if (arguments.out.empty()) {
-    std::cout << text;
-    return 0;
-  }
-  std::ofstream file(arguments.out);
-  file << text;
-  file.close();
-  if (!file) throw Error(arguments.out + ": cannot be written");
-  return 0;
+  const bool failed = arguments.paths_only ? printPaths() : Report(arguments).run();
+  return failed ? 1 : 0;
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ class StageRows {
     const ObjectTrace& trace = load_.first();
     add("depth image to device", imageWork(load_.depth.depth_mm, 9.0, 0.0), [&] {
       stages.uploadDepth(load_.depth, load_.trace.foreground);
+      if (path_.wait != nullptr) path_.wait();
     });
     const auto depth = stages.uploadDepth(load_.depth, load_.trace.foreground);
     add("windows of all starts", {}, [&] {
