@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/depth_noise.h"
+#include "pipeline/explained.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
 
@@ -14,6 +15,9 @@ namespace {
 /// A scene image has at most this many pixels along a side; larger scenes are looked at more
 /// coarsely to find starts, never for the search itself.
 constexpr int kMaxScenePx = 1024;
+/// A start this near to an earlier one would find what that found [share of the diameter].
+constexpr double kTriedApart = 0.1;
+constexpr int kFruitlessPasses = 2;
 
 double largestDiameter(const ReferenceDatabase& database) {
   double largest = 0.0;
@@ -38,6 +42,12 @@ struct Windows {
   std::vector<float> seed_range_px;
 };
 
+/// What one pass over a scene gives.
+struct Pass {
+  std::vector<Candidate> ranked;  ///< one for each place, best first
+  int starts = 0;                 ///< of all objects
+};
+
 class Estimator {
  public:
   Estimator(const DepthImage& depth,
@@ -45,18 +55,26 @@ class Estimator {
             const EstimateOptions& options,
             StageSet& stages,
             Estimate& result)
-      : depth_(depth), database_(database), options_(options), stages_(stages), result_(result) {}
+      : depth_(depth),
+        database_(database),
+        options_(options),
+        stages_(stages),
+        result_(result),
+        tried_(database.objects.size()) {}
 
-  /// Sect. 5 to 7 on what is left of the foreground.
-  std::vector<Candidate> onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
+  /// Sect. 5 to 7 on what is left of the foreground, from starts that were not tried before.
+  Pass onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
     const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
     const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
-    std::vector<Candidate> candidates;
+    Pass pass;
+    std::vector<Candidate>& candidates = pass.ranked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
       const std::vector<glm::dvec3> starts =
-          findStarts(object, foreground, *resident, object_trace);
+          findStarts(object, foreground, *resident, tried_[i], object_trace);
+      tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
+      pass.starts += static_cast<int>(starts.size());
       const Windows windows = cutWindows(object, *resident, starts, object_trace);
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
@@ -78,14 +96,15 @@ class Estimator {
       for (const Candidate& candidate : candidates)
         trace->verified.push_back(estimateOf(candidate));
     }
-    return candidates;
+    return pass;
   }
 
  private:
-  /// The start points, in the camera frame [mm].
+  /// The start points, in the camera frame [mm]; none near those in `tried`.
   std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
                                      const Image<std::uint8_t>& foreground,
                                      const ResidentDepth& resident,
+                                     const std::vector<glm::dvec3>& tried,
                                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
     const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
@@ -97,7 +116,9 @@ class Estimator {
         stages_.prepare(resident, camera, {}, channel_options);
     const SceneChannels channels = scene->download();
     const Image<std::int32_t> labels = stages_.patches(*scene);
-    const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera));
+    SeedOptions seed_options = seedOptions(object, camera);
+    seed_options.count += static_cast<int>(tried.size());
+    const std::vector<Seed> seeds = findSeeds(channels, labels, seed_options);
     if (trace != nullptr) {
       trace->raw_range_px = stages_.resample(depth_, foreground, camera);
       trace->scene = channels;
@@ -106,9 +127,15 @@ class Estimator {
       trace->scene_options = channel_options;
     }
     std::vector<glm::dvec3> points;
+    const double apart_mm = kTriedApart * object.diameter_mm;
     for (const Seed& seed : seeds) {
-      points.push_back(camera.camera_from_ortho *
-                       camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px));
+      const glm::dvec3 point =
+          camera.camera_from_ortho * camera.orthoFromPixel(seed.x_px, seed.y_px, seed.range_px);
+      const bool known = std::any_of(tried.begin(), tried.end(), [&](const glm::dvec3& other) {
+        return glm::distance(point, other) < apart_mm;
+      });
+      if (!known) points.push_back(point);
+      if (static_cast<int>(points.size()) >= options_.startsOfPass()) break;
     }
     return points;
   }
@@ -117,7 +144,7 @@ class Estimator {
     const double area = object.meanArea();
     const double scale = object.pixel_mm / camera.pixel_mm;
     SeedOptions seed_options;
-    seed_options.count = options_.starts;
+    seed_options.count = options_.startsOfPass();
     seed_options.min_patch_px = static_cast<int>(0.08 * area * scale * scale);
     seed_options.max_patch_px =
         static_cast<int>(1.2 * static_cast<double>(object.maxArea()) * scale * scale);
@@ -169,30 +196,8 @@ class Estimator {
   const EstimateOptions& options_;
   StageSet& stages_;
   Estimate& result_;
+  std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
 };
-
-/// Takes the pixels that a found pose explains out of the foreground.
-void removeExplained(const PoseEstimate& found,
-                     const ReferenceObject& object,
-                     const DepthImage& depth,
-                     double noise_mm,
-                     StageSet& stages,
-                     Image<std::uint8_t>& foreground) {
-  const int all = std::max(depth.camera.width, depth.camera.height);
-  const SurfaceWindow window =
-      windowAround(depth.camera, found.pose * object.center_mm, object.radius_mm, all);
-  const Image<SurfaceTexel> surface =
-      stages.renderSurface(object.mesh, depth.camera, found.pose, window);
-  const double tolerance = 2.0 * toleranceFor(object, noise_mm);
-  for (int y = 0; y < surface.height(); ++y) {
-    for (int x = 0; x < surface.width(); ++x) {
-      const double model = static_cast<double>(surface.at(x, y).w);
-      const double seen = static_cast<double>(depth.depth_mm.at(window.x0 + x, window.y0 + y));
-      if (model > 0.0 && std::abs(model - seen) < tolerance)
-        foreground.at(window.x0 + x, window.y0 + y) = 0;
-    }
-  }
-}
 
 /// A line for each object whose size in the image smells of a wrong unit.
 std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDatabase& database) {
@@ -219,8 +224,15 @@ std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDa
 
 }  // namespace
 
+int EstimateOptions::startsOfPass() const {
+  constexpr int kStartsOfOne = 3;  // the paper's N_init
+  constexpr int kStartsOfAll = 12;
+  if (starts > 0) return starts;
+  return max_poses > 1 ? kStartsOfAll : kStartsOfOne;
+}
+
 void EstimateOptions::check() const {
-  RP_CHECK(starts >= 1 && starts <= 1000, "starts must lie in 1..1000");
+  RP_CHECK(starts >= 0 && starts <= 1000, "starts must lie in 1..1000, or be 0 for the default");
   RP_CHECK(kept_per_start >= 1, "kept_per_start must be at least 1");
   RP_CHECK(verified >= 1, "verified must be at least 1");
   RP_CHECK(max_poses >= 1, "max_poses must be at least 1");
@@ -260,19 +272,22 @@ Estimate estimatePoses(const DepthImage& depth,
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);
-  while (static_cast<int>(result.poses.size()) < options.max_poses) {
-    const std::vector<Candidate> ranked =
-        estimator.onePass(foreground, result.poses.empty() ? trace : nullptr);
-    if (ranked.empty() || ranked.front().check.score < options.min_score) break;
-    const Candidate& best = ranked.front();
-    result.poses.push_back(estimateOf(best));
-    if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
-    removeExplained(result.poses.back(),
-                    database.objects[static_cast<std::size_t>(best.object)],
-                    depth,
-                    result.noise_mm,
-                    stages,
-                    foreground);
+  ExplainedPixels explained(depth, result.noise_mm, stages);
+  const auto enough = [&] { return static_cast<int>(result.poses.size()) >= options.max_poses; };
+  // Passes on what is left, until all starts of one were tried before, or two found nothing.
+  for (int fruitless = 0; fruitless < kFruitlessPasses;) {
+    const bool first = result.poses.empty() && fruitless == 0;
+    const Pass pass = estimator.onePass(foreground, first ? trace : nullptr);
+    const std::size_t before = result.poses.size();
+    for (const Candidate& candidate : pass.ranked) {
+      if (candidate.check.score < options.min_score) break;
+      const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
+      if (!explained.take(object, candidate.pose, foreground)) continue;
+      result.poses.push_back(estimateOf(candidate));
+      if (enough()) break;
+    }
+    if (enough() || options.max_poses == 1 || pass.starts == 0) break;
+    fruitless = result.poses.size() > before ? 0 : fruitless + 1;
   }
   std::stable_sort(
       result.poses.begin(), result.poses.end(), [](const PoseEstimate& a, const PoseEstimate& b) {

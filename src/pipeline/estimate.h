@@ -17,7 +17,8 @@
 namespace rangepose {
 
 struct EstimateOptions {
-  int starts = 3;  ///< start points (N_init, paper Sect. 6.1)
+  /// Start points of a pass (N_init, paper Sect. 6.1); 0: 3 for one pose, 12 for several.
+  int starts = 0;
   int kept_per_start =
       512;  ///< hypotheses of a start that are aligned with their view's own points
   int verified =
@@ -25,6 +26,7 @@ struct EstimateOptions {
   double min_score = 0.5;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
+  int startsOfPass() const;
   void check() const;  ///< throws Error naming the bad field
 };
 

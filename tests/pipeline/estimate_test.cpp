@@ -134,7 +134,7 @@ TEST(EstimateTest, BadOptionsAreNamed) {
     change(options);
     return errorOf(tableImage(), brackets(), options);
   };
-  EXPECT_THAT(with([](EstimateOptions& o) { o.starts = 0; }), HasSubstr("starts"));
+  EXPECT_THAT(with([](EstimateOptions& o) { o.starts = -1; }), HasSubstr("starts"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.kept_per_start = 0; }), HasSubstr("kept_per_start"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.verified = -1; }), HasSubstr("verified"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.max_poses = 0; }), HasSubstr("max_poses"));

@@ -158,9 +158,12 @@ void declareSearch(CLI::App& command, EstimateArguments& arguments) {
       ->check(CLI::IsMember({"auto", "glsl", "host", "cuda"}))
       ->capture_default_str();
   declareCuda(command, arguments.cuda);
-  command.add_option("--starts", arguments.options.starts, "Start points of the search")
-      ->check(CLI::Range(1, 1000))
-      ->capture_default_str();
+  command
+      .add_option("--starts",
+                  arguments.options.starts,
+                  "Start points of the search, of each pass where several poses are wanted "
+                  "[3 for one pose, 12 for several]")
+      ->check(CLI::Range(1, 1000));
   command.add_flag("--first", arguments.first, "The best pose only (default)");
   command.add_flag(
       "--all", arguments.all, "All visible parts, at most " + std::to_string(kAllPoses));

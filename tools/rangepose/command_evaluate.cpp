@@ -97,6 +97,7 @@ void declarePaper(CLI::App& command, EvaluatePaperArguments& paper) {
       ->capture_default_str();
   command.add_option("--seed", paper.seed, "Of the bins; same seed, same bins")
       ->capture_default_str();
+  paper.estimate.starts = 3;  // of the paper
   command.add_option("--starts", paper.estimate.starts, "Start points of the search")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
