@@ -49,7 +49,7 @@ std::string CliTest::elbowDatabase() const {
 }
 
 fs::path CliTest::write(const std::string& name, const std::string& bytes) const {
-  const fs::path path = folder_ / name;
+  fs::path path = folder_ / name;
   fs::create_directories(path.parent_path());
   std::ofstream(path, std::ios::binary) << bytes;
   return path;

@@ -52,9 +52,10 @@ inline Mesh prism(int sides, double radius, double height) {
 /// A cylinder whose sides are unequal: corners where a walk with uneven steps comes by.
 inline Mesh unevenCylinder(double radius, double height) {
   std::vector<glm::dvec2> outline;
-  for (double angle = 0.0; angle < 2.0 * std::numbers::pi - 0.02;
-       angle += 0.08 + 0.06 * std::sin(3.0 * angle) * std::sin(3.0 * angle)) {
+  double angle = 0.0;
+  while (angle < 2.0 * std::numbers::pi - 0.02) {
     outline.emplace_back(radius * std::cos(angle), radius * std::sin(angle));
+    angle += 0.08 + 0.06 * std::sin(3.0 * angle) * std::sin(3.0 * angle);
   }
   Mesh mesh;
   mesh.name = "cylinder";

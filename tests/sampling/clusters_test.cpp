@@ -143,6 +143,7 @@ TEST(ClusterAnglesTest, FindsHeapsAlsoAcrossTheSeam) {
 TEST(ClusterAnglesTest, SpreadsEvenDataEvenly) {
   constexpr double kPeriod = kPi / 3.0;
   std::vector<WeightedAngle> points;
+  points.reserve(1000);
   for (int i = 0; i < 1000; ++i) points.push_back({7.0 * kPeriod * i / 1000.0 + 0.3, 1.0});
   const std::vector<double> centres = clusterAngles(points, kPeriod, 8);
   for (std::size_t i = 0; i < 8; ++i) {

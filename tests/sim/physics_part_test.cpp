@@ -48,6 +48,7 @@ TEST(ConvexHullTest, OfACubeWithPointsInside) {
 
 TEST(ConvexHullTest, SimplifiedStaysInsideAndWithinTheTolerance) {
   std::vector<glm::dvec3> points;
+  points.reserve(2000);
   Random random(1);
   for (int k = 0; k < 2000; ++k) points.push_back(50.0 * random.rotation()[0]);
   const ConvexHull sphere = convexHull(points);
