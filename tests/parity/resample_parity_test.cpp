@@ -109,6 +109,8 @@ TEST_P(ResampleParity, WindowsPreparedInARowAreWholeWhenTheyAreReadAfterwards) {
   for (const int growth : {0, 2}) {
     std::vector<OrthoCamera> cameras;
     std::vector<SceneChannels> expected;
+    cameras.reserve(kWindows);
+    expected.reserve(kWindows);
     for (int i = 0; i < kWindows; ++i) {
       const int size = 64 + growth * i;
       cameras.push_back(orthoCamera(image, size, size, 0.8 + 0.05 * i, 0.02 * i));
@@ -116,6 +118,7 @@ TEST_P(ResampleParity, WindowsPreparedInARowAreWholeWhenTheyAreReadAfterwards) {
     }
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::unique_ptr<ResidentScene>> scenes;
+      scenes.reserve(cameras.size());
       for (const OrthoCamera& camera : cameras)
         scenes.push_back(subject().prepare(image, {}, camera, {}, {}));
       for (std::size_t i = 0; i < scenes.size(); ++i) {
