@@ -38,20 +38,10 @@ VirtualBin dropBin(
 }
 
 /// The hypothesis that the paper answers: the arg min over views and starts.
-std::optional<Pose> bestOfSearch(const EstimateTrace& trace, const ReferenceDatabase& database) {
-  const Hypothesis* best = nullptr;
-  std::size_t best_object = 0;
-  for (std::size_t i = 0; i < trace.objects.size(); ++i) {
-    for (const Hypothesis& hypothesis : trace.objects[i].hypotheses) {
-      if (best != nullptr && !(hypothesis.error < best->error)) continue;
-      best = &hypothesis;
-      best_object = i;
-    }
-  }
+std::optional<Pose> bestOfSearch(const ReferenceObject& object, const ObjectTrace& trace) {
+  const Hypothesis* best = lowestError(trace);
   if (best == nullptr || best->error >= kWorstError) return std::nullopt;
-  const auto window = static_cast<std::size_t>(best->window);
-  return poseOf(
-      *best, database.objects[best_object], trace.objects[best_object].windows[window].camera);
+  return poseOf(*best, object, trace.windows[static_cast<std::size_t>(best->window)].camera);
 }
 
 }  // namespace
@@ -107,7 +97,7 @@ TrialAnswer answerOf(const BinScan& scan,
   EstimateTrace trace;
   const Estimate estimate = estimatePoses(scan.image, scan.bin, database, options, stages, &trace);
   TrialAnswer answer;
-  answer.search = bestOfSearch(trace, database);
+  answer.search = bestOfSearch(database.objects.front(), trace.objects.front());
   if (!trace.coarse.empty()) answer.rough = trace.coarse.front().pose;
   if (!estimate.poses.empty()) {
     const PoseEstimate& first = estimate.poses.front();

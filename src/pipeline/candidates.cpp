@@ -95,6 +95,28 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
   candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
+CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
+  CheckOptions options;
+  options.tolerance_mm = toleranceFor(object, noise_mm);
+  return options;
+}
+
+RenderTask surfaceTask(const ReferenceObject& object,
+                       const Pose& camera_from_object,
+                       const Camera& camera,
+                       double noise_mm) {
+  constexpr int kRenderPx = 112;
+  RenderTask task;
+  task.mesh = &object.mesh;
+  task.camera_from_object = camera_from_object;
+  task.window =
+      wholeWindowAround(camera, camera_from_object * object.center_mm, object.radius_mm, kRenderPx);
+  task.center_mm = object.center_mm;
+  task.radius_mm = object.radius_mm;
+  task.check = checkOptionsFor(object, noise_mm);
+  return task;
+}
+
 double toleranceFor(const ReferenceObject& object, double noise_mm) {
   return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
 }

@@ -5,6 +5,14 @@
 
 namespace rangepose {
 
+/// The check of a pose of the object in an image with that depth noise [mm].
+CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm);
+/// What the camera would see of the posed object, to be judged, or aligned once the task says how.
+RenderTask surfaceTask(const ReferenceObject& object,
+                       const Pose& camera_from_object,
+                       const Camera& camera,
+                       double noise_mm);
+
 /// Area of a view [mm^2].
 double visibleArea(const ReferenceObject& object, int view);
 /// Mean area of the object's views [mm^2].

@@ -1,6 +1,8 @@
 #include "pipeline/compare_isolated.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <memory>
 #include <utility>
 
@@ -140,11 +142,8 @@ class Isolated {
 
 /// The pose of the best hypothesis, for an image in which none was good enough to be reported.
 std::optional<Pose> roughPose(const ReferenceObject& object, const ObjectTrace& trace) {
-  const auto best =
-      std::min_element(trace.hypotheses.begin(),
-                       trace.hypotheses.end(),
-                       [](const Hypothesis& a, const Hypothesis& b) { return a.error < b.error; });
-  if (best == trace.hypotheses.end()) return std::nullopt;
+  const Hypothesis* best = lowestError(trace);
+  if (best == nullptr) return std::nullopt;
   return poseOf(*best, object, trace.windows[static_cast<std::size_t>(best->window)].camera);
 }
 

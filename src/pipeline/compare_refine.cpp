@@ -9,7 +9,6 @@ namespace rangepose {
 namespace {
 
 constexpr int kPoints = 220;
-constexpr int kRenderPx = 112;
 
 class RefineComparison {
  public:
@@ -76,22 +75,16 @@ class RefineComparison {
     IcpOptions icp;
     icp.first_reach_mm = 6.0 * tolerance;
     icp.last_reach_mm = tolerance;
-    CheckOptions check;
-    check.tolerance_mm = tolerance;
     points_.push_back(pointsOfView(object, candidate.view, kPoints));
     alignments_.push_back({nullptr, candidate.pose, object.center_mm, object.radius_mm, icp});
-    verdicts_.push_back({nullptr, candidate.pose, visibleArea(object, candidate.view), check});
-    RenderTask task;
-    task.mesh = &object.mesh;
-    task.camera_from_object = candidate.pose;
-    task.window = wholeWindowAround(
-        depth_.camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
+    verdicts_.push_back({nullptr,
+                         candidate.pose,
+                         visibleArea(object, candidate.view),
+                         checkOptionsFor(object, noise_mm_)});
+    RenderTask& task =
+        surfaces_.emplace_back(surfaceTask(object, candidate.pose, depth_.camera, noise_mm_));
     task.max_points = 4 * kPoints;
-    task.center_mm = object.center_mm;
-    task.radius_mm = object.radius_mm;
     task.alignment = icp;
-    task.check = check;
-    surfaces_.push_back(task);
   }
 
   using Poses = std::vector<IcpResult>;

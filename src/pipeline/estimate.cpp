@@ -116,9 +116,8 @@ class Estimator {
         stages_.prepare(resident, camera, {}, channel_options);
     const SceneChannels channels = scene->download();
     const Image<std::int32_t> labels = stages_.patches(*scene);
-    SeedOptions seed_options = seedOptions(object, camera);
-    seed_options.count += static_cast<int>(tried.size());
-    const std::vector<Seed> seeds = findSeeds(channels, labels, seed_options);
+    const int count = options_.startsOfPass() + static_cast<int>(tried.size());
+    const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera, count));
     if (trace != nullptr) {
       trace->raw_range_px = stages_.resample(depth_, foreground, camera);
       trace->scene = channels;
@@ -140,11 +139,13 @@ class Estimator {
     return points;
   }
 
-  SeedOptions seedOptions(const ReferenceObject& object, const OrthoCamera& camera) const {
+  static SeedOptions seedOptions(const ReferenceObject& object,
+                                 const OrthoCamera& camera,
+                                 int count) {
     const double area = object.meanArea();
     const double scale = object.pixel_mm / camera.pixel_mm;
     SeedOptions seed_options;
-    seed_options.count = options_.startsOfPass();
+    seed_options.count = count;
     seed_options.min_patch_px = static_cast<int>(0.08 * area * scale * scale);
     seed_options.max_patch_px =
         static_cast<int>(1.2 * static_cast<double>(object.maxArea()) * scale * scale);
@@ -241,6 +242,14 @@ void EstimateOptions::check() const {
   search.error.check();
 }
 
+const Hypothesis* lowestError(const ObjectTrace& trace) {
+  const auto best =
+      std::min_element(trace.hypotheses.begin(),
+                       trace.hypotheses.end(),
+                       [](const Hypothesis& a, const Hypothesis& b) { return a.error < b.error; });
+  return best == trace.hypotheses.end() ? nullptr : &*best;
+}
+
 Estimate estimatePoses(const DepthImage& depth,
                        const std::optional<BinBox>& bin,
                        const ReferenceDatabase& database,
@@ -282,7 +291,8 @@ Estimate estimatePoses(const DepthImage& depth,
     for (const Candidate& candidate : pass.ranked) {
       if (candidate.check.score < options.min_score) break;
       const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-      if (!explained.take(object, candidate.pose, foreground)) continue;
+      // A single pose shares no surface with others, and nothing is looked for after it.
+      if (options.max_poses > 1 && !explained.take(object, candidate.pose, foreground)) continue;
       result.poses.push_back(estimateOf(candidate));
       if (enough()) break;
     }

@@ -54,6 +54,10 @@ struct ObjectTrace {
   SearchOptions search;
 };
 
+/// The hypothesis with the lowest Eq. 1 of all windows (paper Eq. 7), the first of equal ones; null
+/// where nothing was searched.
+const Hypothesis* lowestError(const ObjectTrace& trace);
+
 struct EstimateTrace {
   Image<std::uint8_t> foreground;
   /// After the alignment with the views' own points, the best of each start, best first: all that

@@ -1,7 +1,6 @@
 #include "pipeline/refine.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -16,12 +15,6 @@ using Points = std::vector<std::vector<SurfacePoint>>;  ///< of each candidate
 
 const ReferenceObject& objectOf(const Candidate& candidate, const ReferenceDatabase& database) {
   return database.objects[static_cast<std::size_t>(candidate.object)];
-}
-
-CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
-  CheckOptions options;
-  options.tolerance_mm = toleranceFor(object, noise_mm);
-  return options;
 }
 
 IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iterations) {
@@ -117,22 +110,6 @@ struct FineRounds {
   double first_reach;  ///< of the first round [tolerances]
 };
 
-/// What the camera would see of a posed candidate.
-RenderTask surfaceOf(const Candidate& candidate,
-                     const ReferenceObject& object,
-                     const RefineScene& scene) {
-  constexpr int kRenderPx = 112;
-  RenderTask task;
-  task.mesh = &object.mesh;
-  task.camera_from_object = candidate.pose;
-  task.window = wholeWindowAround(
-      scene.depth.camera, candidate.pose * object.center_mm, object.radius_mm, kRenderPx);
-  task.center_mm = object.center_mm;
-  task.radius_mm = object.radius_mm;
-  task.check = checkOptionsFor(object, scene.noise_mm);
-  return task;
-}
-
 /// Aligns what is visible of the candidates that move, and gives those that moved still.
 std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const std::vector<std::size_t>& moving,
@@ -147,7 +124,8 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   for (const std::size_t i : moving) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     const double tolerance = toleranceFor(object, scene.noise_mm);
-    RenderTask& task = tasks.emplace_back(surfaceOf(candidates[i], object, scene));
+    RenderTask& task = tasks.emplace_back(
+        surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
     task.max_points = kFinePoints;
     task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
   }
@@ -177,7 +155,8 @@ void refineAll(std::vector<Candidate>& candidates,
   std::vector<RenderTask> tasks;
   tasks.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
-    tasks.push_back(surfaceOf(candidate, objectOf(candidate, database), scene));
+    tasks.push_back(surfaceTask(
+        objectOf(candidate, database), candidate.pose, scene.depth.camera, scene.noise_mm));
   }
   setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database);
 }

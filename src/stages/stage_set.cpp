@@ -11,7 +11,6 @@ namespace {
 /// Some ten microseconds of work a piece, at least.
 constexpr int kAlignmentsPerPiece = 1;
 constexpr int kVerdictsPerPiece = 64;
-constexpr int kSurfacesPerPiece = 1;
 
 Image<float> masked(const DepthImage& depth, const Image<std::uint8_t>& keep) {
   if (keep.empty()) return depth.depth_mm;
@@ -32,6 +31,12 @@ class HostDepth : public ResidentDepth {
   const Image<std::uint8_t>& keep;
   const Image<float> foreground_mm;
 };
+
+/// Tasks of a piece where each renders: all, one after the other, where the path belongs to one
+/// thread.
+int renderGrain(const StageSet& stages, std::size_t tasks) {
+  return stages.concurrent() ? 1 : std::max(static_cast<int>(tasks), 1);
+}
 
 /// `result[i] = make(tasks[i])` on all cores.
 template <typename Result, typename Task, typename Make>
@@ -95,10 +100,8 @@ std::vector<IcpResult> StageSet::alignSurfaces(const ResidentDepth& depth,
         renderSurface(*task.mesh, camera, task.camera_from_object, task.window);
     return pointsOfSurface(surface, camera, task.window, task.camera_from_object, task.max_points);
   };
-  // One after the other where the path belongs to one thread.
-  const int together = std::max(static_cast<int>(tasks.size()), 1);
-  const auto points = forEachTask<std::vector<SurfacePoint>>(
-      tasks, concurrent() ? kSurfacesPerPiece : together, render);
+  const auto points =
+      forEachTask<std::vector<SurfacePoint>>(tasks, renderGrain(*this, tasks.size()), render);
   std::vector<AlignTask> alignments;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const RenderTask& task = tasks[i];
@@ -111,9 +114,8 @@ std::vector<IcpResult> StageSet::alignSurfaces(const ResidentDepth& depth,
 std::vector<CheckResult> StageSet::judgeSurfaces(const ResidentDepth& depth,
                                                  const std::vector<RenderTask>& tasks) {
   const auto& own = static_cast<const HostDepth&>(depth);
-  const int together = std::max(static_cast<int>(tasks.size()), 1);
   return forEachTask<CheckResult>(
-      tasks, concurrent() ? kSurfacesPerPiece : together, [&](const RenderTask& task) {
+      tasks, renderGrain(*this, tasks.size()), [&](const RenderTask& task) {
         const Image<SurfaceTexel> surface =
             renderSurface(*task.mesh, own.depth.camera, task.camera_from_object, task.window);
         return host::check(surface, task.window, own.depth, task.check);

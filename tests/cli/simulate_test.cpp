@@ -244,8 +244,10 @@ TEST_F(SimulateTest, AFullBinIsAnErrorThatSaysWhatToDo) {
 }
 
 TEST_F(SimulateTest, AnInterruptLeavesWholeScenes) {
+  // In the foreground: else the signal goes to the process and to its group, and a second one ends
+  // it.
   const std::string command = fmt::format(
-      "cd '{}' && timeout --preserve-status -s INT 4 '{}' simulate '{}' -o set"
+      "cd '{}' && timeout --foreground --preserve-status -s INT 4 '{}' simulate '{}' -o set"
       " --bins 100000 --count 1 --size 64x48 > out.txt 2> err.txt",
       folder().string(),
       RP_EXECUTABLE,

@@ -67,11 +67,8 @@ std::vector<Part> loadParts(const TrialOptions& options) {
 
 /// Vertex error of the hypothesis with the lowest Eq. 1, as a share of the diameter.
 double roughError(const ObjectTrace& trace, const Part& part, const Pose& truth) {
-  const auto best =
-      std::min_element(trace.hypotheses.begin(),
-                       trace.hypotheses.end(),
-                       [](const Hypothesis& a, const Hypothesis& b) { return a.error < b.error; });
-  if (best == trace.hypotheses.end()) return std::numeric_limits<double>::infinity();
+  const Hypothesis* best = lowestError(trace);
+  if (best == nullptr) return std::numeric_limits<double>::infinity();
   const ReferenceObject& object = part.database.objects.front();
   const OrthoCamera& window = trace.windows[static_cast<std::size_t>(best->window)].camera;
   return test::vertexError(object.mesh, part.symmetries, poseOf(*best, object, window), truth) /
