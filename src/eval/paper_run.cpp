@@ -102,7 +102,7 @@ TrialAnswer answerOf(const BinScan& scan,
   if (!estimate.poses.empty()) {
     const PoseEstimate& first = estimate.poses.front();
     answer.fine = first.pose;
-    answer.score = first.check.score;
+    answer.score = first.confidence;
   }
   if (timed) {
     answer.times = estimatePoses(scan.image, scan.bin, database, options, stages).times;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "pipeline/confidence.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/scene_window.h"
 
@@ -95,6 +96,12 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
   candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
+void setConfidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
+  candidate.check = check;
+  candidate.rank = logOddsOf(check, check.explained_mm2 / mean_visible_mm2);
+  candidate.confidence = probabilityOf(candidate.rank);
+}
+
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
   CheckOptions options;
   options.tolerance_mm = toleranceFor(object, noise_mm);
@@ -168,29 +175,6 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
     best.push_back(candidate);
     ++taken_here;
   }
-  return best;
-}
-
-std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
-                                       const ReferenceDatabase& database) {
-  constexpr double kSamePlace = 0.5;  // of the larger diameter
-  std::stable_sort(candidates.begin(),
-                   candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-  std::vector<Candidate> best;
-  for (const Candidate& candidate : candidates) {
-    const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-    const glm::dvec3 center = candidate.pose * object.center_mm;
-    const bool taken = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      const ReferenceObject& owner = database.objects[static_cast<std::size_t>(other.object)];
-      const double reach = kSamePlace * std::max(object.diameter_mm, owner.diameter_mm);
-      return glm::distance(center, other.pose * owner.center_mm) < reach;
-    });
-    if (!taken) best.push_back(candidate);
-  }
-  std::stable_sort(best.begin(), best.end(), [](const Candidate& a, const Candidate& b) {
-    return a.check.score > b.check.score;
-  });
   return best;
 }
 

@@ -5,9 +5,9 @@
 #include <memory>
 
 #include "pipeline/depth_noise.h"
-#include "pipeline/explained.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
+#include "pipeline/selection.h"
 
 namespace rangepose {
 namespace {
@@ -32,6 +32,7 @@ PoseEstimate estimateOf(const Candidate& candidate) {
           candidate.pose,
           candidate.rough_error,
           candidate.view,
+          candidate.confidence,
           candidate.check};
 }
 
@@ -44,7 +45,7 @@ struct Windows {
 
 /// What one pass over a scene gives.
 struct Pass {
-  std::vector<Candidate> ranked;  ///< one for each place, best first
+  std::vector<Candidate> checked;  ///< a few of each start, surest first
   int starts = 0;                 ///< of all objects
 };
 
@@ -63,11 +64,14 @@ class Estimator {
         tried_(database.objects.size()) {}
 
   /// Sect. 5 to 7 on what is left of the foreground, from starts that were not tried before.
-  Pass onePass(const Image<std::uint8_t>& foreground, EstimateTrace* trace) {
+  /// Poses that are known already are not checked again.
+  Pass onePass(const Image<std::uint8_t>& foreground,
+               const Selection& known,
+               EstimateTrace* trace) {
     const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
     const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
     Pass pass;
-    std::vector<Candidate>& candidates = pass.ranked;
+    std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
@@ -79,19 +83,22 @@ class Estimator {
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
-          object, static_cast<int>(i), hypotheses, windows.cameras, scene, options_.kept_per_start);
+          object, static_cast<int>(i), hypotheses, windows.cameras, scene, options_.keptOfStart());
       candidates.insert(candidates.end(), own.begin(), own.end());
     }
     {
       const ScopedTimer timer(result_.times, "coarse icp");
-      candidates = refineCoarsely(std::move(candidates), database_, scene, options_.verified);
+      candidates = refineCoarsely(std::move(candidates), database_, scene, options_.verifiedOfStart());
+      std::erase_if(candidates, [&](const Candidate& one) { return known.knows(one); });
     }
     if (trace != nullptr) {
       for (const Candidate& candidate : candidates) trace->coarse.push_back(estimateOf(candidate));
     }
     const ScopedTimer timer(result_.times, "fine icp and check");
-    refineFinely(candidates, database_, scene);
-    candidates = bestOfEachPlace(std::move(candidates), database_);
+    refineFinely(candidates, database_, scene, options_.fineEffort());
+    std::stable_sort(candidates.begin(),
+                     candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
     if (trace != nullptr) {
       for (const Candidate& candidate : candidates)
         trace->verified.push_back(estimateOf(candidate));
@@ -225,17 +232,31 @@ std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDa
 
 }  // namespace
 
+// One pose must come from what three starts give, the paper's N_init; of several poses each may be
+// found from one start or another.
 int EstimateOptions::startsOfPass() const {
-  constexpr int kStartsOfOne = 3;  // the paper's N_init
-  constexpr int kStartsOfAll = 12;
   if (starts > 0) return starts;
-  return max_poses > 1 ? kStartsOfAll : kStartsOfOne;
+  return max_poses > 1 ? 12 : 3;
+}
+
+int EstimateOptions::keptOfStart() const {
+  if (kept_per_start > 0) return kept_per_start;
+  return max_poses > 1 ? 128 : 512;
+}
+
+int EstimateOptions::verifiedOfStart() const {
+  if (verified > 0) return verified;
+  return max_poses > 1 ? 4 : 16;
+}
+
+FineEffort EstimateOptions::fineEffort() const {
+  return max_poses > 1 ? FineEffort{1, 450, 1} : FineEffort{2, 900, 3};
 }
 
 void EstimateOptions::check() const {
   RP_CHECK(starts >= 0 && starts <= 1000, "starts must lie in 1..1000, or be 0 for the default");
-  RP_CHECK(kept_per_start >= 1, "kept_per_start must be at least 1");
-  RP_CHECK(verified >= 1, "verified must be at least 1");
+  RP_CHECK(kept_per_start >= 0, "kept_per_start must be at least 1, or 0 for the default");
+  RP_CHECK(verified >= 0, "verified must be at least 1, or 0 for the default");
   RP_CHECK(max_poses >= 1, "max_poses must be at least 1");
   RP_CHECK(min_score >= 0.0 && min_score <= 1.0, "min_score must lie in 0..1");
   search.simplex.check();
@@ -281,28 +302,32 @@ Estimate estimatePoses(const DepthImage& depth,
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);
-  ExplainedPixels explained(depth, result.noise_mm, stages);
-  const auto enough = [&] { return static_cast<int>(result.poses.size()) >= options.max_poses; };
+  Selection selection(depth, database, result.noise_mm, stages);
+  Image<std::uint8_t> rest = foreground;
+  std::vector<Candidate> chosen;
   // Passes on what is left, until all starts of one were tried before, or two found nothing.
   for (int fruitless = 0; fruitless < kFruitlessPasses;) {
-    const bool first = result.poses.empty() && fruitless == 0;
-    const Pass pass = estimator.onePass(foreground, first ? trace : nullptr);
-    const std::size_t before = result.poses.size();
-    for (const Candidate& candidate : pass.ranked) {
-      if (candidate.check.score < options.min_score) break;
-      const ReferenceObject& object = database.objects[static_cast<std::size_t>(candidate.object)];
-      // A single pose shares no surface with others, and nothing is looked for after it.
-      if (options.max_poses > 1 && !explained.take(object, candidate.pose, foreground)) continue;
-      result.poses.push_back(estimateOf(candidate));
-      if (enough()) break;
+    const Pass pass = estimator.onePass(rest, selection, trace);
+    trace = nullptr;
+    const ScopedTimer timer(result.times, "selection");
+    if (options.max_poses == 1) {
+      if (!pass.checked.empty() && pass.checked.front().confidence >= options.min_score) {
+        chosen = {pass.checked.front()};
+      }
+      break;
     }
-    if (enough() || options.max_poses == 1 || pass.starts == 0) break;
-    fruitless = result.poses.size() > before ? 0 : fruitless + 1;
+    selection.add(pass.checked, options.min_score);
+    const std::size_t before = chosen.size();
+    chosen = selection.choose();
+    if (pass.starts == 0) break;
+    rest = foreground;
+    selection.takeOut(rest);
+    fruitless = chosen.size() > before ? 0 : fruitless + 1;
   }
-  std::stable_sort(
-      result.poses.begin(), result.poses.end(), [](const PoseEstimate& a, const PoseEstimate& b) {
-        return a.check.score > b.check.score;
-      });
+  for (const Candidate& candidate : chosen) {
+    if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
+    result.poses.push_back(estimateOf(candidate));
+  }
   return result;
 }
 

@@ -9,6 +9,7 @@
 #include "core/timings.h"
 #include "database/reference_database.h"
 #include "pipeline/foreground.h"
+#include "pipeline/refine.h"
 #include "pipeline/seeds.h"
 #include "stages/check_host.h"
 #include "stages/icp_host.h"
@@ -19,14 +20,18 @@ namespace rangepose {
 struct EstimateOptions {
   /// Start points of a pass (N_init, paper Sect. 6.1); 0: 3 for one pose, 12 for several.
   int starts = 0;
-  int kept_per_start =
-      512;  ///< hypotheses of a start that are aligned with their view's own points
-  int verified =
-      16;  ///< refined hypotheses of a start that are rendered, refined again and checked
+  /// Hypotheses of a start that are aligned with their view's own points; 0: 512 for one pose, 128
+  /// for several, which are looked for from more starts.
+  int kept_per_start = 0;
+  /// Of these, how many are rendered, aligned again and checked; 0: 16 for one pose, 4 for several.
+  int verified = 0;
   double min_score = 0.5;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
   int startsOfPass() const;
+  int keptOfStart() const;
+  int verifiedOfStart() const;
+  FineEffort fineEffort() const;
   void check() const;  ///< throws Error naming the bad field
 };
 
@@ -36,7 +41,8 @@ struct PoseEstimate {
   Pose pose;                 ///< camera_from_object, refined
   float rough_error = 0.0f;  ///< Eq. 1
   int view = 0;
-  CheckResult check;  ///< check.score is the confidence, 0..1
+  double confidence = 0.0;  ///< that the pose is right, 0..1
+  CheckResult check;        ///< what the confidence comes from
 };
 
 /// Pictures of what happened to one object; for dumps and comparisons.
@@ -63,7 +69,7 @@ struct EstimateTrace {
   /// After the alignment with the views' own points, the best of each start, best first: all that
   /// the reference views can say, nothing rendered yet. First pass only.
   std::vector<PoseEstimate> coarse;
-  std::vector<PoseEstimate> verified;  ///< checked poses, one for each place, best first
+  std::vector<PoseEstimate> verified;  ///< checked poses, a few of each start; first pass only
   std::vector<ObjectTrace> objects;    ///< one for each object of the database; first pass only
 };
 

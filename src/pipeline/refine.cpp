@@ -25,15 +25,17 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
+/// `set` as setVerdict or setConfidence.
 void setVerdicts(std::vector<Candidate>& candidates,
                  const std::vector<CheckResult>& verdicts,
-                 const ReferenceDatabase& database) {
+                 const ReferenceDatabase& database,
+                 void (*set)(Candidate&, const CheckResult&, double)) {
   std::vector<double> mean_mm2;
   for (const ReferenceObject& object : database.objects)
     mean_mm2.push_back(meanVisibleArea(object));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto object = static_cast<std::size_t>(candidates[i].object);
-    setVerdict(candidates[i], verdicts[i], mean_mm2[object]);
+    set(candidates[i], verdicts[i], mean_mm2[object]);
   }
 }
 
@@ -84,7 +86,7 @@ void alignWithViews(std::vector<Candidate>& candidates,
                      visibleArea(object, candidates[i].view),
                      checkOptionsFor(object, scene.noise_mm)});
   }
-  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database);
+  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
 }
 
 }  // namespace
@@ -107,6 +109,7 @@ namespace {
 
 struct FineRounds {
   int rounds;          ///< at most
+  int points;          ///< of each surface
   double first_reach;  ///< of the first round [tolerances]
 };
 
@@ -115,8 +118,8 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const std::vector<std::size_t>& moving,
                                        const ReferenceDatabase& database,
                                        const RefineScene& scene,
+                                       int points,
                                        double reach_tolerances) {
-  constexpr int kFinePoints = 900;
   constexpr int kFineIterations = 12;
   // A pose that moves by less has come to rest [share of the diameter].
   constexpr double kStill = 1e-4;
@@ -126,7 +129,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     const double tolerance = toleranceFor(object, scene.noise_mm);
     RenderTask& task = tasks.emplace_back(
         surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
-    task.max_points = kFinePoints;
+    task.max_points = points;
     task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
   }
   const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
@@ -150,7 +153,7 @@ void refineAll(std::vector<Candidate>& candidates,
   std::iota(moving.begin(), moving.end(), std::size_t{0});
   for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
     const double reach = round == 0 ? fine.first_reach : kLaterReach;
-    moving = alignSurfaces(candidates, moving, database, scene, reach);
+    moving = alignSurfaces(candidates, moving, database, scene, fine.points, reach);
   }
   std::vector<RenderTask> tasks;
   tasks.reserve(candidates.size());
@@ -158,20 +161,22 @@ void refineAll(std::vector<Candidate>& candidates,
     tasks.push_back(surfaceTask(
         objectOf(candidate, database), candidate.pose, scene.depth.camera, scene.noise_mm));
   }
-  setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database);
+  setVerdicts(
+      candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);
 }
 
 }  // namespace
 
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
-                  const RefineScene& scene) {
-  // A short alignment of all tells which few are worth a long one.
-  constexpr FineRounds kAll{2, 6.0};
-  constexpr FineRounds kFinalists{8, 3.0};
-  constexpr int kFinalistsPerStart = 3;
-  refineAll(candidates, database, scene, kAll);
-  candidates = bestDistinct(std::move(candidates), database, kFinalistsPerStart);
+                  const RefineScene& scene,
+                  const FineEffort& effort) {
+  constexpr FineRounds kFinalists{8, 900, 3.0};
+  // Odds of e^-6: no long alignment makes such a pose right.
+  constexpr double kHopeless = -6.0;
+  refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0});
+  std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
+  candidates = bestDistinct(std::move(candidates), database, effort.finalists);
   refineAll(candidates, database, scene, kFinalists);
 }
 

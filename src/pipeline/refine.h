@@ -3,7 +3,9 @@
 
 #include <vector>
 
-#include "pipeline/estimate.h"
+#include "database/reference_database.h"
+#include "stages/check_host.h"
+#include "stages/stage_set.h"
 
 namespace rangepose {
 
@@ -24,8 +26,10 @@ struct Candidate {
   Pose rough;
   Pose pose;
   CheckResult check;
-  double rank =
-      0.0;  ///< what candidates are ordered by: score, and how much of the scene it explains
+  /// What candidates are ordered by: score and how much of the scene it explains; once rendered and
+  /// checked the log odds of being right.
+  double rank = 0.0;
+  double confidence = 0.0;  ///< 0..1, once rendered and checked
 };
 
 /// The `count` most promising hypotheses of each window that differ from each other, as poses: half
@@ -51,17 +55,20 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
                                     const ReferenceDatabase& database,
                                     int count);
 
-/// The candidate with the largest rank in each place, best score first: poses in one place compete
-/// to explain the same data, poses in different places may all be right and are ordered by how sure
-/// they are.
-std::vector<Candidate> bestOfEachPlace(std::vector<Candidate> candidates,
-                                       const ReferenceDatabase& database);
+/// How much is done for a checked pose.
+struct FineEffort {
+  int rounds = 2;     ///< of rendering and alignment before the finalists are chosen
+  int points = 900;   ///< of a surface in these rounds
+  int finalists = 3;  ///< of each start, that are aligned until they rest
+};
 
 /// Renders the candidates at the sensor's resolution, aligns the visible part, and checks the
-/// result; keeps the few best of each start and aligns those until they rest.
+/// result; keeps the few best of each start and aligns those until they rest. Candidates that are
+/// beyond hope by then are dropped.
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
-                  const RefineScene& scene);
+                  const RefineScene& scene,
+                  const FineEffort& effort);
 
 /// Surfaces of an object closer than this count as the same [mm].
 double toleranceFor(const ReferenceObject& object, double noise_mm);

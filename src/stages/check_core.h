@@ -30,6 +30,7 @@ struct CheckResult {
   double missing = 0.0;        ///< no measurement there
   double weak = 0.0;           ///< near the data, but less than explained
   double outline = 0.0;        ///< share of the outline where the data ends with the model, 0..1
+  double outline_covered = 0.0;  ///< share of the outline that nearer data covers: counts half
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
   int pixels = 0;              ///< rendered pixels
@@ -91,6 +92,7 @@ struct CheckTally {
   double pixels = 0.0;
   double border = 0.0;
   double border_ends = 0.0;
+  double border_covered = 0.0;
   double visible_mm2 = 0.0;
 };
 
@@ -169,6 +171,7 @@ RP_HD void judgeBorder(const Depth& surface_depth,
     tally.border += 1.0;
     if (covered || !measured.inImage(out_u, out_v)) {
       tally.border_ends += 0.5;
+      tally.border_covered += 1.0;
       continue;
     }
     // Nearer data may cover the outline; farther or missing data ends the surface.
@@ -176,6 +179,7 @@ RP_HD void judgeBorder(const Depth& surface_depth,
       tally.border_ends += 1.0;
     } else if (outside < model - 1.5 * options.tolerance_mm) {
       tally.border_ends += 0.5;
+      tally.border_covered += 1.0;
     }
   }
 }
@@ -264,6 +268,7 @@ RP_HD CheckResult surfaceVerdict(const CheckTally& tally, const CheckOptions& op
   CheckResult result = summarizeCheck(
       tally, options, 1.0 - options.border + options.border * outline, tally.visible_mm2);
   result.outline = outline;
+  result.outline_covered = tally.border > 0.0 ? tally.border_covered / tally.border : 0.0;
   return result;
 }
 

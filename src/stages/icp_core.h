@@ -52,12 +52,34 @@ RP_HD void addPair(IcpSums& sums,
   sums.weight += weight;
   sums.squared_mm += weight * residual * residual;
   if (slide <= 0.0) return;
-  const double row_x[6] = {0.0, scene[2], -scene[1], 1.0, 0.0, 0.0};
-  const double row_y[6] = {-scene[2], 0.0, scene[0], 0.0, 1.0, 0.0};
-  const double row_z[6] = {scene[1], -scene[0], 0.0, 0.0, 0.0, 1.0};
-  addRow(sums, row_x, gap[0], weight * slide);
-  addRow(sums, row_y, gap[1], weight * slide);
-  addRow(sums, row_z, gap[2], weight * slide);
+  // The rows of the three coordinates, (0, z, -y, 1, 0, 0), (-z, 0, x, 0, 1, 0) and (y, -x, 0, 0,
+  // 0, 1), without their zeros.
+  const double w = weight * slide;
+  const double x = scene[0];
+  const double y = scene[1];
+  const double z = scene[2];
+  sums.hessian[0] += w * z * z;
+  sums.hessian[0] += w * y * y;
+  sums.hessian[1] -= w * x * y;
+  sums.hessian[2] -= w * x * z;
+  sums.hessian[4] -= w * z;
+  sums.hessian[5] += w * y;
+  sums.hessian[6] += w * z * z;
+  sums.hessian[6] += w * x * x;
+  sums.hessian[7] -= w * y * z;
+  sums.hessian[8] += w * z;
+  sums.hessian[10] -= w * x;
+  sums.hessian[11] += w * y * y;
+  sums.hessian[11] += w * x * x;
+  sums.hessian[12] -= w * y;
+  sums.hessian[13] += w * x;
+  sums.hessian[15] += w;
+  sums.hessian[18] += w;
+  sums.hessian[20] += w;
+  sums.gradient[0] += w * (y * gap[2] - z * gap[1]);
+  sums.gradient[1] += w * (z * gap[0] - x * gap[2]);
+  sums.gradient[2] += w * (x * gap[1] - y * gap[0]);
+  for (int i = 0; i < 3; ++i) sums.gradient[3 + i] += w * gap[i];
 }
 
 /// Solves (H + damping * I) x = g by Cholesky factorisation. False when H is not positive definite
@@ -137,6 +159,9 @@ icpPartner(const DepthReader<Read>& scene, const glm::dvec3& point_mm, double re
       if (!scene.contains(x, y)) continue;
       const double depth = scene.read(x, y);
       if (depth == 0.0) continue;
+      // No nearer than along z alone.
+      const double behind = depth - point_mm.z;
+      if (!(behind * behind < best)) continue;
       const glm::dvec3 candidate = scene.camera.unproject(x, y, depth);
       const glm::dvec3 gap = candidate - point_mm;
       const double squared = glm::dot(gap, gap);

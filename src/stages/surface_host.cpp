@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -80,8 +79,18 @@ namespace {
 struct ScreenVertex {
   glm::dvec3 point_mm;  ///< in the camera frame
   glm::dvec2 pixel;     ///< in the window
+  glm::ivec2 first;     ///< pixel centres from here on are not left of or above it
+  glm::ivec2 last;      ///< pixel centres up to here are not right of or below it
   bool in_front;
 };
+
+/// Rounded down; far outside of any image it stays there.
+int floorOf(double value) {
+  constexpr double kFar = 1.0e9;
+  const double bounded = std::clamp(value, -kFar, kFar);
+  const int truncated = static_cast<int>(bounded);
+  return truncated - (static_cast<double>(truncated) > bounded ? 1 : 0);
+}
 
 /// The plane of a triangle seen along the ray of a pixel.
 class DepthPlane {
@@ -108,38 +117,38 @@ double edgeFunction(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& 
   return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
 }
 
-void fillTriangle(const std::array<ScreenVertex, 3>& corner,
+void fillTriangle(const ScreenVertex& a,
+                  const ScreenVertex& b,
+                  const ScreenVertex& c,
                   const Camera& camera,
                   const SurfaceWindow& window,
                   Image<SurfaceTexel>& surface) {
-  const double area = edgeFunction(corner[0].pixel, corner[1].pixel, corner[2].pixel);
+  // Most triangles of a fine mesh lie between pixel centres.
+  const int x0 = std::max(0, std::min({a.first.x, b.first.x, c.first.x}));
+  const int x1 = std::min(window.width - 1, std::max({a.last.x, b.last.x, c.last.x}));
+  if (x0 > x1) return;
+  const int y0 = std::max(0, std::min({a.first.y, b.first.y, c.first.y}));
+  const int y1 = std::min(window.height - 1, std::max({a.last.y, b.last.y, c.last.y}));
+  if (y0 > y1) return;
+  const double area = edgeFunction(a.pixel, b.pixel, c.pixel);
   if (area == 0.0) return;
-  const glm::dvec2 low = glm::min(corner[0].pixel, glm::min(corner[1].pixel, corner[2].pixel));
-  const glm::dvec2 high = glm::max(corner[0].pixel, glm::max(corner[1].pixel, corner[2].pixel));
-  const int x0 = static_cast<int>(std::ceil(std::max(low.x, 0.0)));
-  const int y0 = static_cast<int>(std::ceil(std::max(low.y, 0.0)));
-  const int x1 = static_cast<int>(std::floor(std::min(high.x, window.width - 1.0)));
-  const int y1 = static_cast<int>(std::floor(std::min(high.y, window.height - 1.0)));
-  if (x0 > x1 || y0 > y1) return;
-  glm::dvec3 normal =
-      glm::cross(corner[1].point_mm - corner[0].point_mm, corner[2].point_mm - corner[0].point_mm);
+  glm::dvec3 normal = glm::cross(b.point_mm - a.point_mm, c.point_mm - a.point_mm);
   const double length = glm::length(normal);
   if (length == 0.0) return;
   normal /= length;
-  if (glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : corner[0].point_mm) > 0.0) {
+  if (glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : a.point_mm) > 0.0) {
     normal = -normal;
   }
-  const DepthPlane plane(camera, normal, corner[0].point_mm);
-  const double low_z = std::min({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
-  const double high_z =
-      std::max({corner[0].point_mm.z, corner[1].point_mm.z, corner[2].point_mm.z});
+  const DepthPlane plane(camera, normal, a.point_mm);
+  const double low_z = std::min({a.point_mm.z, b.point_mm.z, c.point_mm.z});
+  const double high_z = std::max({a.point_mm.z, b.point_mm.z, c.point_mm.z});
   const double sign = area > 0.0 ? 1.0 : -1.0;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
       const glm::dvec2 p(x, y);
-      if (sign * edgeFunction(corner[0].pixel, corner[1].pixel, p) < 0.0 ||
-          sign * edgeFunction(corner[1].pixel, corner[2].pixel, p) < 0.0 ||
-          sign * edgeFunction(corner[2].pixel, corner[0].pixel, p) < 0.0) {
+      if (sign * edgeFunction(a.pixel, b.pixel, p) < 0.0 ||
+          sign * edgeFunction(b.pixel, c.pixel, p) < 0.0 ||
+          sign * edgeFunction(c.pixel, a.pixel, p) < 0.0) {
         continue;
       }
       // A face seen edge on has no stable plane: its corners bound the depth.
@@ -168,12 +177,15 @@ Image<SurfaceTexel> renderSurface(const Mesh& mesh,
     if (!vertex.in_front) continue;
     const glm::dvec2 pixel = camera.project(vertex.point_mm);
     vertex.pixel = (pixel - glm::dvec2(window.x0, window.y0)) / static_cast<double>(window.step);
+    vertex.last = {floorOf(vertex.pixel.x), floorOf(vertex.pixel.y)};
+    vertex.first = {-floorOf(-vertex.pixel.x), -floorOf(-vertex.pixel.y)};
   }
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const std::array<ScreenVertex, 3> corner = {
-        vertices[triangle.x], vertices[triangle.y], vertices[triangle.z]};
-    if (!corner[0].in_front || !corner[1].in_front || !corner[2].in_front) continue;
-    fillTriangle(corner, camera, window, surface);
+    const ScreenVertex& a = vertices[triangle.x];
+    const ScreenVertex& b = vertices[triangle.y];
+    const ScreenVertex& c = vertices[triangle.z];
+    if (!a.in_front || !b.in_front || !c.in_front) continue;
+    fillTriangle(a, b, c, camera, window, surface);
   }
   return surface;
 }

@@ -135,7 +135,7 @@ TEST(EstimateTest, BadOptionsAreNamed) {
     return errorOf(tableImage(), brackets(), options);
   };
   EXPECT_THAT(with([](EstimateOptions& o) { o.starts = -1; }), HasSubstr("starts"));
-  EXPECT_THAT(with([](EstimateOptions& o) { o.kept_per_start = 0; }), HasSubstr("kept_per_start"));
+  EXPECT_THAT(with([](EstimateOptions& o) { o.kept_per_start = -1; }), HasSubstr("kept_per_start"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.verified = -1; }), HasSubstr("verified"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.max_poses = 0; }), HasSubstr("max_poses"));
   EXPECT_THAT(with([](EstimateOptions& o) { o.search.simplex.step_px = 0.0f; }),

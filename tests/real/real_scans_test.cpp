@@ -56,7 +56,7 @@ class RealScansTest : public ::testing::Test {
     options.min_score = 0.0;
     const DepthImage image = readDepth(scans_ / depth, readCamera(scans_ / camera));
     const Estimate estimate = estimatePoses(image, std::nullopt, database, options, *stages_);
-    const double score = estimate.poses.empty() ? 0.0 : estimate.poses.front().check.score;
+    const double score = estimate.poses.empty() ? 0.0 : estimate.poses.front().confidence;
     std::cout << depth.string() << ": " << database.objects.front().mesh.name << " " << score
               << "\n";
     return score;

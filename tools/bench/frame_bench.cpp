@@ -48,7 +48,7 @@ void addFrame(Fixture& fixture,
     }
     state.counters["search_ms"] = benchmark::Counter(search_ms, benchmark::Counter::kAvgIterations);
     state.counters["peak_MB"] = peakMemoryMb();
-    state.counters["score"] = estimate.poses.empty() ? 0.0 : estimate.poses.front().check.score;
+    state.counters["score"] = estimate.poses.empty() ? 0.0 : estimate.poses.front().confidence;
   });
 }
 

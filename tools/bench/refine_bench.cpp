@@ -17,7 +17,7 @@ std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scen
                         trace.hypotheses,
                         cameras,
                         scene,
-                        EstimateOptions().kept_per_start);
+                        EstimateOptions().keptOfStart());
 }
 
 void addCoarse(Fixture& fixture, const Path& path) {
@@ -28,7 +28,7 @@ void addCoarse(Fixture& fixture, const Path& path) {
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
       benchmark::DoNotOptimize(
-          refineCoarsely(rough, fixture.database(kViews), scene, EstimateOptions().verified));
+          refineCoarsely(rough, fixture.database(kViews), scene, EstimateOptions().verifiedOfStart()));
     }
     rate(state, "candidates", static_cast<double>(rough.size()));
   });
@@ -41,10 +41,10 @@ void addFine(Fixture& fixture, const Path& path) {
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(
-        roughCandidates(fixture, scene), database, scene, EstimateOptions().verified);
+        roughCandidates(fixture, scene), database, scene, EstimateOptions().verifiedOfStart());
     for (auto _ : state) {
       std::vector<Candidate> candidates = coarse;
-      refineFinely(candidates, database, scene);
+      refineFinely(candidates, database, scene, EstimateOptions().fineEffort());
       benchmark::DoNotOptimize(candidates);
     }
     rate(state, "candidates", static_cast<double>(coarse.size()));

@@ -32,7 +32,7 @@ Workload::Workload(int views, int starts) {
   const ChannelOptions channels = channelOptionsFor(kSizePx);
   database.objects.push_back(describeObject(mesh, 1, kSizePx, uniformRotations(views), channels));
   host::renderReferences(database.objects.front(), channels, {});
-  options.starts = starts;
+  options.startsOfPass() = starts;
   const std::unique_ptr<StageSet> host = makeHostStages();
   estimate = estimatePoses(depth, std::nullopt, database, options, *host, &trace);
   if (static_cast<int>(first().windows.size()) < starts) {
@@ -51,7 +51,7 @@ void Workload::makeTasks() {
     return a.error < b.error;
   });
   const auto most =
-      static_cast<std::size_t>(options.kept_per_start) * static_cast<std::size_t>(options.starts);
+      static_cast<std::size_t>(options.keptOfStart()) * static_cast<std::size_t>(options.startsOfPass());
   kept.resize(std::min(kept.size(), most));
   points.reserve(kept.size());
   IcpOptions icp;

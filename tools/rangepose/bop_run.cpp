@@ -68,7 +68,7 @@ class BopRun {
   void addRows(int scene_id, int im_id, const Estimate& estimate, double time_s) {
     for (const PoseEstimate& pose : estimate.poses) {
       const ReferenceObject& object = database_.objects.at(static_cast<std::size_t>(pose.object));
-      rows_.push_back({scene_id, im_id, object.id, pose.check.score, pose.pose, time_s});
+      rows_.push_back({scene_id, im_id, object.id, pose.confidence, pose.pose, time_s});
     }
   }
 

@@ -45,6 +45,8 @@ Json checkJson(const CheckResult& check) {
           {"missing", finite(check.missing, "check.missing")},
           {"weak", finite(check.weak, "check.weak")},
           {"outline", finite(check.outline, "check.outline")},
+          {"outline_covered", finite(check.outline_covered, "check.outline_covered")},
+          {"explained_mm2", finite(check.explained_mm2, "check.explained_mm2")},
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
 }
 
@@ -56,7 +58,7 @@ Json poseJson(const PoseEstimate& pose, const ReferenceDatabase& database) {
   const ReferenceObject& object = objectOf(pose, database);
   return {{"object", object.mesh.name},
           {"obj_id", object.id},
-          {"score", finite(pose.check.score, "score")},
+          {"score", finite(pose.confidence, "score")},
           {"cam_R_m2c", rotationJson(pose.pose)},
           {"cam_t_m2c", translationJson(pose.pose)},
           {"rough",
@@ -76,7 +78,7 @@ std::string poseLine(std::size_t rank,
       "{:>4}  {:<20} {:>6.3f}  {:>9.2f} {:>9.2f} {:>9.2f}   {:>8.5f} {:>8.5f} {:>8.5f} {:>8.5f}\n",
       rank,
       objectOf(pose, database).mesh.name,
-      pose.check.score,
+      pose.confidence,
       t.x,
       t.y,
       t.z,
@@ -147,7 +149,7 @@ std::vector<debug::OverlayPose> overlayPoses(const Estimate& estimate,
     const Mesh& mesh = objectOf(pose, database).mesh;
     poses.push_back({&mesh,
                      rough ? pose.rough : pose.pose,
-                     pose.check.score,
+                     pose.confidence,
                      std::to_string(poses.size() + 1) + " " + mesh.name});
   }
   return poses;

@@ -1,0 +1,97 @@
+#include "pipeline/selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace rangepose {
+namespace {
+
+constexpr double kSame = 0.05;        // of the diameter
+constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
+
+}  // namespace
+
+Selection::Selection(const DepthImage& depth,
+                     const ReferenceDatabase& database,
+                     double noise_mm,
+                     StageSet& stages)
+    : depth_(depth),
+      database_(database),
+      noise_mm_(noise_mm),
+      stages_(stages),
+      distances_(database.objects.begin(), database.objects.end()) {}
+
+const Selection::Entry* Selection::find(const Candidate& candidate) const {
+  const PoseDistance& distance = distances_[static_cast<std::size_t>(candidate.object)];
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
+    return entry.candidate.object == candidate.object &&
+           distance.below(kSame, entry.candidate.pose, candidate.pose);
+  });
+  return found == entries_.end() ? nullptr : &*found;
+}
+
+bool Selection::knows(const Candidate& candidate) const { return find(candidate) != nullptr; }
+
+void Selection::add(const std::vector<Candidate>& candidates, double min_confidence) {
+  for (const Candidate& candidate : candidates) {
+    if (!(candidate.confidence >= min_confidence)) continue;
+    if (const Entry* known = find(candidate)) {
+      if (known->candidate.rank >= candidate.rank) continue;
+      entries_.erase(entries_.begin() + (known - entries_.data()));
+    }
+    entries_.push_back({candidate, explainedPixels(candidate)});
+  }
+  std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+    return a.candidate.rank > b.candidate.rank;
+  });
+}
+
+std::vector<std::int32_t> Selection::explainedPixels(const Candidate& candidate) const {
+  const ReferenceObject& object = database_.objects[static_cast<std::size_t>(candidate.object)];
+  const int all = std::max(depth_.camera.width, depth_.camera.height);
+  const SurfaceWindow window =
+      windowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, all);
+  const Image<SurfaceTexel> surface =
+      stages_.renderSurface(object.mesh, depth_.camera, candidate.pose, window);
+  const double tolerance = 2.0 * toleranceFor(object, noise_mm_);
+  std::vector<std::int32_t> pixels;
+  for (int y = 0; y < surface.height(); ++y) {
+    for (int x = 0; x < surface.width(); ++x) {
+      const double model = static_cast<double>(surface.at(x, y).w);
+      const double seen = static_cast<double>(depth_.depth_mm.at(window.x0 + x, window.y0 + y));
+      if (!(model > 0.0 && std::abs(model - seen) < tolerance)) continue;
+      pixels.push_back((window.y0 + y) * depth_.camera.width + window.x0 + x);
+    }
+  }
+  return pixels;
+}
+
+std::vector<const Selection::Entry*> Selection::chosen() const {
+  std::vector<const Entry*> entries;
+  std::vector<std::uint8_t> taken(depth_.depth_mm.size(), 0);
+  for (const Entry& entry : entries_) {
+    const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
+      return taken[static_cast<std::size_t>(at)] != 0;
+    });
+    if (static_cast<double>(shared) > kMostShared * static_cast<double>(entry.pixels.size()))
+      continue;
+    for (const std::int32_t at : entry.pixels) taken[static_cast<std::size_t>(at)] = 1;
+    entries.push_back(&entry);
+  }
+  return entries;
+}
+
+std::vector<Candidate> Selection::choose() const {
+  std::vector<Candidate> candidates;
+  for (const Entry* entry : chosen()) candidates.push_back(entry->candidate);
+  return candidates;
+}
+
+void Selection::takeOut(Image<std::uint8_t>& mask) const {
+  for (const Entry* entry : chosen()) {
+    for (const std::int32_t at : entry->pixels) mask.data()[at] = 0;
+  }
+}
+
+}  // namespace rangepose

@@ -1,0 +1,51 @@
+// Which of the checked poses of one image go together: every pixel is explained once.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "pipeline/pose_distance.h"
+#include "pipeline/refine.h"
+
+namespace rangepose {
+
+/// Keeps all poses that were found so far, whatever pass they are from, and chooses among them
+/// anew: a pose that is good on its own gives way to a better one of the same surface that was
+/// found later.
+class Selection {
+ public:
+  Selection(const DepthImage& depth,
+            const ReferenceDatabase& database,
+            double noise_mm,
+            StageSet& stages);
+
+  /// Whether a pose like this one, symmetric copies included, is there already.
+  bool knows(const Candidate& candidate) const;
+  /// Adds checked poses that are sure enough. Of like ones the surest stays.
+  void add(const std::vector<Candidate>& candidates, double min_confidence);
+  /// The surest pose, then the surest of those that share little of what they explain with one
+  /// before, and so on.
+  std::vector<Candidate> choose() const;
+  /// Takes what the chosen poses explain out of the mask of pixels.
+  void takeOut(Image<std::uint8_t>& mask) const;
+
+ private:
+  struct Entry {
+    Candidate candidate;
+    std::vector<std::int32_t> pixels;  ///< explained ones, by index
+  };
+  const Entry* find(const Candidate& candidate) const;
+  std::vector<std::int32_t> explainedPixels(const Candidate& candidate) const;
+  std::vector<const Entry*> chosen() const;
+
+  const DepthImage& depth_;
+  const ReferenceDatabase& database_;
+  double noise_mm_;
+  StageSet& stages_;
+  std::vector<PoseDistance> distances_;  ///< by object
+  std::vector<Entry> entries_;           ///< surest first
+};
+
+}  // namespace rangepose

@@ -1,0 +1,106 @@
+// Surface that a pose explains belongs to it: shared by two poses, one part is picked twice; taken
+// too eagerly, the part beside it is missed.
+#include "pipeline/selection.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "database/reference_database.h"
+#include "geometry/orientation_grid.h"
+#include "pipeline/confidence.h"
+#include "support/box_mesh.h"
+#include "support/shapes.h"
+
+namespace rangepose {
+namespace {
+
+class SelectionTest : public testing::Test {
+ protected:
+  SelectionTest() {
+    image_.camera = test::pinholeCamera(320, 240, 300.0);
+    image_.depth_mm = Image<float>(320, 240, 0.0f);
+    for (const double x : {-60.0, 60.0}) test::measure(image_, object_.mesh, partAt(x));
+    foreground_ = Image<std::uint8_t>(320, 240, 0);
+    std::transform(
+        image_.depth_mm.begin(), image_.depth_mm.end(), foreground_.begin(), [](float mm) {
+          return static_cast<std::uint8_t>(mm > 0.0f ? 1 : 0);
+        });
+  }
+
+  Pose partAt(double x_mm) const {
+    Pose pose;
+    pose.rotation = rotationFromVector({-0.7, 1.9, 0.4});
+    pose.translation_mm = glm::dvec3(x_mm, 0.0, 500.0) - pose.rotation * object_.center_mm;
+    return pose;
+  }
+
+  /// Pixels of the foreground.
+  double left() const {
+    return static_cast<double>(std::count(foreground_.begin(), foreground_.end(), 1));
+  }
+
+  /// Its rank is also what its confidence follows from.
+  Candidate candidateAt(double x_mm, double rank) const {
+    Candidate candidate;
+    candidate.pose = partAt(x_mm);
+    candidate.rank = rank;
+    candidate.confidence = probabilityOf(rank);
+    return candidate;
+  }
+
+  ReferenceObject object_ = describeObject(
+      test::meshOf(test::bracketBoxes()), 1, 64, uniformRotations(1), channelOptionsFor(64));
+  ReferenceDatabase database_{{object_}};
+  DepthImage image_;
+  Image<std::uint8_t> foreground_;
+  std::unique_ptr<StageSet> stages_ = makeHostStages();
+};
+
+TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
+  const double all = left();
+  ASSERT_GT(all, 0.0);
+  Selection selection(image_, database_, 0.1, *stages_);
+  selection.add({candidateAt(-60.0, 1.0)}, 0.5);
+  selection.takeOut(foreground_);
+  EXPECT_NEAR(left(), 0.5 * all, 0.02 * all);
+  selection.add({candidateAt(60.0, 1.0)}, 0.5);
+  EXPECT_EQ(selection.choose().size(), 2u);
+  selection.takeOut(foreground_);
+  EXPECT_EQ(left(), 0.0);
+}
+
+TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
+  for (const bool surer_first : {true, false}) {
+    Selection selection(image_, database_, 0.1, *stages_);
+    const Candidate right = candidateAt(-60.0, 3.0);
+    // Shifted by more than what counts as the same pose, on the same surface.
+    const Candidate shifted = candidateAt(-57.0, 1.0);
+    selection.add({surer_first ? right : shifted}, 0.5);
+    EXPECT_FALSE(selection.knows(surer_first ? shifted : right));
+    selection.add({surer_first ? shifted : right}, 0.5);
+    const std::vector<Candidate> chosen = selection.choose();
+    ASSERT_EQ(chosen.size(), 1u) << "one part would be picked twice";
+    EXPECT_EQ(chosen[0].rank, 3.0) << "whichever was found first";
+  }
+}
+
+TEST_F(SelectionTest, OfLikePosesTheSurestStays) {
+  Selection selection(image_, database_, 0.1, *stages_);
+  selection.add({candidateAt(-60.0, 1.0), candidateAt(-60.1, 2.0), candidateAt(-60.2, 0.5)}, 0.5);
+  ASSERT_EQ(selection.choose().size(), 1u);
+  EXPECT_EQ(selection.choose()[0].rank, 2.0);
+  EXPECT_TRUE(selection.knows(candidateAt(-60.05, 0.0))) << "it need not be checked again";
+}
+
+TEST_F(SelectionTest, UnsurePosesClaimNothing) {
+  Selection selection(image_, database_, 0.1, *stages_);
+  const double before = left();
+  selection.add({candidateAt(-60.0, -1.0)}, 0.5);
+  EXPECT_TRUE(selection.choose().empty());
+  selection.takeOut(foreground_);
+  EXPECT_EQ(left(), before);
+}
+
+}  // namespace
+}  // namespace rangepose
