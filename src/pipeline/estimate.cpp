@@ -46,7 +46,7 @@ struct Windows {
 /// What one pass over a scene gives.
 struct Pass {
   std::vector<Candidate> checked;  ///< a few of each start, surest first
-  int starts = 0;                 ///< of all objects
+  int starts = 0;                  ///< of all objects
 };
 
 class Estimator {
@@ -68,6 +68,10 @@ class Estimator {
   Pass onePass(const Image<std::uint8_t>& foreground,
                const Selection& known,
                EstimateTrace* trace) {
+    const PassEffort effort = options_.effort(passes_);
+    // What was looked at quickly may be looked at once more.
+    if (passes_ == 1) tried_.assign(database_.objects.size(), {});
+    ++passes_;
     const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
     const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
     Pass pass;
@@ -76,26 +80,26 @@ class Estimator {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
       const std::vector<glm::dvec3> starts =
-          findStarts(object, foreground, *resident, tried_[i], object_trace);
+          findStarts(object, foreground, *resident, tried_[i], effort.starts, object_trace);
       tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
       pass.starts += static_cast<int>(starts.size());
       const Windows windows = cutWindows(object, *resident, starts, object_trace);
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
-          object, static_cast<int>(i), hypotheses, windows.cameras, scene, options_.keptOfStart());
+          object, static_cast<int>(i), hypotheses, windows.cameras, scene, effort.kept);
       candidates.insert(candidates.end(), own.begin(), own.end());
     }
     {
       const ScopedTimer timer(result_.times, "coarse icp");
-      candidates = refineCoarsely(std::move(candidates), database_, scene, options_.verifiedOfStart());
+      candidates = refineCoarsely(std::move(candidates), database_, scene, effort.verified);
       std::erase_if(candidates, [&](const Candidate& one) { return known.knows(one); });
     }
     if (trace != nullptr) {
       for (const Candidate& candidate : candidates) trace->coarse.push_back(estimateOf(candidate));
     }
     const ScopedTimer timer(result_.times, "fine icp and check");
-    refineFinely(candidates, database_, scene, options_.fineEffort());
+    refineFinely(candidates, database_, scene, effort.fine);
     std::stable_sort(candidates.begin(),
                      candidates.end(),
                      [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
@@ -112,6 +116,7 @@ class Estimator {
                                      const Image<std::uint8_t>& foreground,
                                      const ResidentDepth& resident,
                                      const std::vector<glm::dvec3>& tried,
+                                     int wanted,
                                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
     const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
@@ -123,7 +128,7 @@ class Estimator {
         stages_.prepare(resident, camera, {}, channel_options);
     const SceneChannels channels = scene->download();
     const Image<std::int32_t> labels = stages_.patches(*scene);
-    const int count = options_.startsOfPass() + static_cast<int>(tried.size());
+    const int count = wanted + static_cast<int>(tried.size());
     const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera, count));
     if (trace != nullptr) {
       trace->raw_range_px = stages_.resample(depth_, foreground, camera);
@@ -141,7 +146,7 @@ class Estimator {
         return glm::distance(point, other) < apart_mm;
       });
       if (!known) points.push_back(point);
-      if (static_cast<int>(points.size()) >= options_.startsOfPass()) break;
+      if (static_cast<int>(points.size()) >= wanted) break;
     }
     return points;
   }
@@ -204,6 +209,7 @@ class Estimator {
   const EstimateOptions& options_;
   StageSet& stages_;
   Estimate& result_;
+  int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
 };
 
@@ -232,25 +238,17 @@ std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDa
 
 }  // namespace
 
-// One pose must come from what three starts give, the paper's N_init; of several poses each may be
-// found from one start or another.
-int EstimateOptions::startsOfPass() const {
-  if (starts > 0) return starts;
-  return max_poses > 1 ? 12 : 3;
-}
-
-int EstimateOptions::keptOfStart() const {
-  if (kept_per_start > 0) return kept_per_start;
-  return max_poses > 1 ? 128 : 512;
-}
-
-int EstimateOptions::verifiedOfStart() const {
-  if (verified > 0) return verified;
-  return max_poses > 1 ? 4 : 16;
-}
-
-FineEffort EstimateOptions::fineEffort() const {
-  return max_poses > 1 ? FineEffort{1, 450, 1} : FineEffort{2, 900, 3};
+PassEffort EstimateOptions::effort(int pass) const {
+  // One pose must come from what three starts give, the paper's N_init. Several poses: first a
+  // quick look everywhere, then a closer one at what is left.
+  constexpr PassEffort kOne{3, 512, 16, {2, 900, 3}};
+  constexpr PassEffort kQuick{40, 128, 4, {1, 450, 2}};
+  constexpr PassEffort kClose{12, 256, 8, {1, 450, 3}};
+  PassEffort result = max_poses == 1 ? kOne : pass == 0 ? kQuick : kClose;
+  if (starts > 0) result.starts = starts;
+  if (kept_per_start > 0) result.kept = kept_per_start;
+  if (verified > 0) result.verified = verified;
+  return result;
 }
 
 void EstimateOptions::check() const {
@@ -302,10 +300,10 @@ Estimate estimatePoses(const DepthImage& depth,
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);
-  Selection selection(depth, database, result.noise_mm, stages);
+  Selection selection(depth, database, result.noise_mm, options.min_score, stages);
   Image<std::uint8_t> rest = foreground;
   std::vector<Candidate> chosen;
-  // Passes on what is left, until all starts of one were tried before, or two found nothing.
+  // Passes on what is left, until all its starts were tried before, or two found nothing.
   for (int fruitless = 0; fruitless < kFruitlessPasses;) {
     const Pass pass = estimator.onePass(rest, selection, trace);
     trace = nullptr;
@@ -316,7 +314,7 @@ Estimate estimatePoses(const DepthImage& depth,
       }
       break;
     }
-    selection.add(pass.checked, options.min_score);
+    selection.add(pass.checked);
     const std::size_t before = chosen.size();
     chosen = selection.choose();
     if (pass.starts == 0) break;

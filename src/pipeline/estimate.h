@@ -17,21 +17,24 @@
 
 namespace rangepose {
 
+/// How much a pass over the scene does.
+struct PassEffort {
+  int starts;    ///< N_init, paper Sect. 6.1
+  int kept;      ///< hypotheses of a start that are aligned with their view's own points
+  int verified;  ///< of these, how many are rendered, aligned again and checked
+  FineEffort fine;
+};
+
 struct EstimateOptions {
-  /// Start points of a pass (N_init, paper Sect. 6.1); 0: 3 for one pose, 12 for several.
-  int starts = 0;
-  /// Hypotheses of a start that are aligned with their view's own points; 0: 512 for one pose, 128
-  /// for several, which are looked for from more starts.
-  int kept_per_start = 0;
-  /// Of these, how many are rendered, aligned again and checked; 0: 16 for one pose, 4 for several.
-  int verified = 0;
-  double min_score = 0.5;  ///< poses below are not reported
+  // 0: as effort() says.
+  int starts = 0;          ///< start points of a pass
+  int kept_per_start = 0;  ///< see PassEffort
+  int verified = 0;        ///< likewise, of each start
+  double min_score = 0.7;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
-  int startsOfPass() const;
-  int keptOfStart() const;
-  int verifiedOfStart() const;
-  FineEffort fineEffort() const;
+  /// Of the passes 0, 1, ...
+  PassEffort effort(int pass = 0) const;
   void check() const;  ///< throws Error naming the bad field
 };
 

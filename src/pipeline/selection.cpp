@@ -9,16 +9,20 @@ namespace {
 
 constexpr double kSame = 0.05;        // of the diameter
 constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
+constexpr double kFaint = 0.02;       // confidence below which a pose is nobody's rival
+constexpr double kRival = 0.5;        // of the pixels of the larger of two poses
 
 }  // namespace
 
 Selection::Selection(const DepthImage& depth,
                      const ReferenceDatabase& database,
                      double noise_mm,
+                     double min_confidence,
                      StageSet& stages)
     : depth_(depth),
       database_(database),
       noise_mm_(noise_mm),
+      min_confidence_(min_confidence),
       stages_(stages),
       distances_(database.objects.begin(), database.objects.end()) {}
 
@@ -33,9 +37,9 @@ const Selection::Entry* Selection::find(const Candidate& candidate) const {
 
 bool Selection::knows(const Candidate& candidate) const { return find(candidate) != nullptr; }
 
-void Selection::add(const std::vector<Candidate>& candidates, double min_confidence) {
+void Selection::add(const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) {
-    if (!(candidate.confidence >= min_confidence)) continue;
+    if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
     if (const Entry* known = find(candidate)) {
       if (known->candidate.rank >= candidate.rank) continue;
       entries_.erase(entries_.begin() + (known - entries_.data()));
@@ -71,6 +75,7 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   std::vector<const Entry*> entries;
   std::vector<std::uint8_t> taken(depth_.depth_mm.size(), 0);
   for (const Entry& entry : entries_) {
+    if (!(entry.candidate.confidence >= min_confidence_)) continue;
     const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
       return taken[static_cast<std::size_t>(at)] != 0;
     });
@@ -82,9 +87,31 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   return entries;
 }
 
+double Selection::rivalry(const Entry& entry) const {
+  std::vector<std::uint8_t> own(depth_.depth_mm.size(), 0);
+  for (const std::int32_t at : entry.pixels) own[static_cast<std::size_t>(at)] = 1;
+  double odds = 0.0;
+  for (const Entry& other : entries_) {
+    if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
+    const auto shared = std::count_if(other.pixels.begin(), other.pixels.end(), [&](int at) {
+      return own[static_cast<std::size_t>(at)] != 0;
+    });
+    const auto larger = std::max(entry.pixels.size(), other.pixels.size());
+    if (static_cast<double>(shared) < kRival * static_cast<double>(larger)) continue;
+    odds += std::exp(other.candidate.rank);
+  }
+  return odds;
+}
+
 std::vector<Candidate> Selection::choose() const {
   std::vector<Candidate> candidates;
-  for (const Entry* entry : chosen()) candidates.push_back(entry->candidate);
+  for (const Entry* entry : chosen()) {
+    const double odds = std::exp(entry->candidate.rank);
+    const double confidence = odds / (1.0 + odds + rivalry(*entry));
+    if (!(confidence >= min_confidence_)) continue;
+    candidates.push_back(entry->candidate);
+    candidates.back().confidence = confidence;
+  }
   return candidates;
 }
 

@@ -19,16 +19,19 @@ class Selection {
   Selection(const DepthImage& depth,
             const ReferenceDatabase& database,
             double noise_mm,
+            double min_confidence,
             StageSet& stages);
 
   /// Whether a pose like this one, symmetric copies included, is there already.
   bool knows(const Candidate& candidate) const;
-  /// Adds checked poses that are sure enough. Of like ones the surest stays.
-  void add(const std::vector<Candidate>& candidates, double min_confidence);
+  /// Adds checked poses, also unsure ones: they may be rivals. Of like ones the surest stays.
+  void add(const std::vector<Candidate>& candidates);
   /// The surest pose, then the surest of those that share little of what they explain with one
-  /// before, and so on.
+  /// before, and so on. The confidence of each is its share of the odds of all poses of its object
+  /// that explain the same surface: where two are as good as each other, neither is sure. Only
+  /// those whose confidence is large enough.
   std::vector<Candidate> choose() const;
-  /// Takes what the chosen poses explain out of the mask of pixels.
+  /// Takes what poses explain, with or without rivals, out of the mask of pixels.
   void takeOut(Image<std::uint8_t>& mask) const;
 
  private:
@@ -38,11 +41,15 @@ class Selection {
   };
   const Entry* find(const Candidate& candidate) const;
   std::vector<std::int32_t> explainedPixels(const Candidate& candidate) const;
+  /// Those that share no surface, the surest first.
   std::vector<const Entry*> chosen() const;
+  /// Sum of the odds of the other poses of the same object for the same surface.
+  double rivalry(const Entry& entry) const;
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
   double noise_mm_;
+  double min_confidence_;
   StageSet& stages_;
   std::vector<PoseDistance> distances_;  ///< by object
   std::vector<Entry> entries_;           ///< surest first

@@ -226,7 +226,7 @@ TEST(EstimateTest, PosesOfAHeapAreDistinct) {
     const Pose& pose = estimate.poses[i].pose;
     for (std::size_t j = 0; j < i; ++j) {
       EXPECT_GT(distanceBetween(pose, estimate.poses[j].pose), 0.2) << i << " and " << j;
-      EXPECT_GE(estimate.poses[j].check.score, estimate.poses[i].check.score) << "best first";
+      EXPECT_GE(estimate.poses[j].confidence, estimate.poses[i].confidence) << "best first";
     }
     for (const PartTruth& truth : heapScene().scan.truth)
       right += distanceBetween(pose, truth.camera_from_object) < 0.03 ? 1 : 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
@@ -60,11 +61,11 @@ class SelectionTest : public testing::Test {
 TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
   const double all = left();
   ASSERT_GT(all, 0.0);
-  Selection selection(image_, database_, 0.1, *stages_);
-  selection.add({candidateAt(-60.0, 1.0)}, 0.5);
+  Selection selection(image_, database_, 0.1, 0.5, *stages_);
+  selection.add({candidateAt(-60.0, 1.0)});
   selection.takeOut(foreground_);
   EXPECT_NEAR(left(), 0.5 * all, 0.02 * all);
-  selection.add({candidateAt(60.0, 1.0)}, 0.5);
+  selection.add({candidateAt(60.0, 1.0)});
   EXPECT_EQ(selection.choose().size(), 2u);
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), 0.0);
@@ -72,13 +73,13 @@ TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
 
 TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
   for (const bool surer_first : {true, false}) {
-    Selection selection(image_, database_, 0.1, *stages_);
+    Selection selection(image_, database_, 0.1, 0.5, *stages_);
     const Candidate right = candidateAt(-60.0, 3.0);
     // Shifted by more than what counts as the same pose, on the same surface.
     const Candidate shifted = candidateAt(-57.0, 1.0);
-    selection.add({surer_first ? right : shifted}, 0.5);
+    selection.add({surer_first ? right : shifted});
     EXPECT_FALSE(selection.knows(surer_first ? shifted : right));
-    selection.add({surer_first ? shifted : right}, 0.5);
+    selection.add({surer_first ? shifted : right});
     const std::vector<Candidate> chosen = selection.choose();
     ASSERT_EQ(chosen.size(), 1u) << "one part would be picked twice";
     EXPECT_EQ(chosen[0].rank, 3.0) << "whichever was found first";
@@ -86,17 +87,31 @@ TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
 }
 
 TEST_F(SelectionTest, OfLikePosesTheSurestStays) {
-  Selection selection(image_, database_, 0.1, *stages_);
-  selection.add({candidateAt(-60.0, 1.0), candidateAt(-60.1, 2.0), candidateAt(-60.2, 0.5)}, 0.5);
+  Selection selection(image_, database_, 0.1, 0.5, *stages_);
+  selection.add({candidateAt(-60.0, 1.0), candidateAt(-60.1, 2.0), candidateAt(-60.2, 0.5)});
   ASSERT_EQ(selection.choose().size(), 1u);
   EXPECT_EQ(selection.choose()[0].rank, 2.0);
   EXPECT_TRUE(selection.knows(candidateAt(-60.05, 0.0))) << "it need not be checked again";
 }
 
+TEST_F(SelectionTest, RivalsShareTheConfidence) {
+  Selection selection(image_, database_, 0.1, 0.4, *stages_);
+  const Candidate first = candidateAt(-60.0, 2.0);
+  // Turned about the line of sight: another pose that explains much of the same surface.
+  Candidate second = candidateAt(-60.0, 1.9);
+  second.pose.rotation = rotationFromVector({0.0, 0.0, 0.3}) * second.pose.rotation;
+  second.pose.translation_mm += first.pose * object_.center_mm - second.pose * object_.center_mm;
+  selection.add({first, second});
+  const std::vector<Candidate> chosen = selection.choose();
+  ASSERT_EQ(chosen.size(), 1u);
+  EXPECT_NEAR(chosen[0].confidence, std::exp(2.0) / (1.0 + std::exp(2.0) + std::exp(1.9)), 1e-12)
+      << "either may be the right one, which a robot must know before it picks";
+}
+
 TEST_F(SelectionTest, UnsurePosesClaimNothing) {
-  Selection selection(image_, database_, 0.1, *stages_);
+  Selection selection(image_, database_, 0.1, 0.5, *stages_);
   const double before = left();
-  selection.add({candidateAt(-60.0, -1.0)}, 0.5);
+  selection.add({candidateAt(-60.0, -1.0)});
   EXPECT_TRUE(selection.choose().empty());
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), before);

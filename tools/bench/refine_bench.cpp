@@ -17,7 +17,7 @@ std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scen
                         trace.hypotheses,
                         cameras,
                         scene,
-                        EstimateOptions().keptOfStart());
+                        EstimateOptions().effort().kept);
 }
 
 void addCoarse(Fixture& fixture, const Path& path) {
@@ -27,8 +27,8 @@ void addCoarse(Fixture& fixture, const Path& path) {
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), *path.stages};
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
-      benchmark::DoNotOptimize(
-          refineCoarsely(rough, fixture.database(kViews), scene, EstimateOptions().verifiedOfStart()));
+      benchmark::DoNotOptimize(refineCoarsely(
+          rough, fixture.database(kViews), scene, EstimateOptions().effort().verified));
     }
     rate(state, "candidates", static_cast<double>(rough.size()));
   });
@@ -41,10 +41,10 @@ void addFine(Fixture& fixture, const Path& path) {
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(
-        roughCandidates(fixture, scene), database, scene, EstimateOptions().verifiedOfStart());
+        roughCandidates(fixture, scene), database, scene, EstimateOptions().effort().verified);
     for (auto _ : state) {
       std::vector<Candidate> candidates = coarse;
-      refineFinely(candidates, database, scene, EstimateOptions().fineEffort());
+      refineFinely(candidates, database, scene, EstimateOptions().effort().fine);
       benchmark::DoNotOptimize(candidates);
     }
     rate(state, "candidates", static_cast<double>(coarse.size()));

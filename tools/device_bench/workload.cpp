@@ -32,7 +32,7 @@ Workload::Workload(int views, int starts) {
   const ChannelOptions channels = channelOptionsFor(kSizePx);
   database.objects.push_back(describeObject(mesh, 1, kSizePx, uniformRotations(views), channels));
   host::renderReferences(database.objects.front(), channels, {});
-  options.startsOfPass() = starts;
+  options.starts = starts;
   const std::unique_ptr<StageSet> host = makeHostStages();
   estimate = estimatePoses(depth, std::nullopt, database, options, *host, &trace);
   if (static_cast<int>(first().windows.size()) < starts) {
@@ -50,8 +50,8 @@ void Workload::makeTasks() {
   std::stable_sort(kept.begin(), kept.end(), [](const Hypothesis& a, const Hypothesis& b) {
     return a.error < b.error;
   });
-  const auto most =
-      static_cast<std::size_t>(options.keptOfStart()) * static_cast<std::size_t>(options.startsOfPass());
+  const auto most = static_cast<std::size_t>(options.effort().kept) *
+                    static_cast<std::size_t>(options.effort().starts);
   kept.resize(std::min(kept.size(), most));
   points.reserve(kept.size());
   IcpOptions icp;
