@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the meshes in models/ anew from their OpenSCAD sources. Needs openscad and python3; the meshes are
-# in the repository, so that building and testing needs neither.
+# Makes the meshes in models/ and its folders anew from their OpenSCAD sources. Needs openscad and python3;
+# the meshes are in the repository, so that building and testing needs neither.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -13,8 +13,8 @@ done
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-for source in models/*.scad; do
+for source in models/*.scad models/tuning/*.scad models/reporting/*.scad; do
   part=$(basename "$source" .scad)
   openscad -q -o "$work/$part.off" "$source"
-  python3 tools/off_to_ply.py "$work/$part.off" "models/$part.ply" --max-edge 12
+  python3 tools/off_to_ply.py "$work/$part.off" "${source%.scad}.ply" --max-edge 12
 done
