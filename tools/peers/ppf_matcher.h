@@ -1,0 +1,66 @@
+// OpenCV contrib's surface_matching for one object: point pair features, and its ICP. The only file
+// of the peers that knows OpenCV.
+//
+// OpenCV 4.6 to 4.10, what must be known of it:
+// - RelativeDistanceStep is ignored; RelativeSamplingStep sets the step of distances, too, and cells
+//   of the sampling follow the bounding box side by side. So points are thinned before, here.
+// - Its clustering compares angles of rotations, not rotations, and with a default limit that all
+//   pass; poses of one cluster are averaged. It is turned off by limits that no pose passes.
+// - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 24 degrees
+//   for 30 angles: a pose is a start for ICP, not an answer.
+#pragma once
+
+#include <memory>
+#include <opencv2/surface_matching.hpp>
+#include <vector>
+
+#include "core/pose.h"
+#include "peers/scene_cloud.h"
+#include "stages/reference.h"
+
+namespace rangepose::peers {
+
+struct PpfOptions {
+  double model_spacing = 0.04;    ///< of the model's points [share of the diameter]
+  double scene_spacing = 0.04;    ///< of the scene's points [share of the diameter]
+  double distance_step = 0.04;    ///< of distances of pairs [share of the box's diagonal]
+  int angles = 30;                ///< steps of a full turn
+  double reference_share = 0.2;   ///< of a crop's points that vote
+};
+
+struct PpfIcpOptions {
+  int iterations = 60;
+  float tolerance = 0.002f;  ///< relative change of the error at which a level ends
+  float rejection = 2.5f;    ///< pairs farther apart than so many standard deviations are left out
+  int levels = 3;            ///< of the pyramid
+};
+
+struct PpfHypothesis {
+  Pose camera_from_object;
+  double votes = 0.0;
+};
+
+/// Not for two threads at a time: OpenCV's match() writes to its object.
+class PpfMatcher {
+ public:
+  /// Learns the surface that the views of the object show.
+  PpfMatcher(const ReferenceObject& object, const PpfOptions& options);
+
+  /// One hypothesis for each point of the crop that votes, most votes first. The crop is in the
+  /// camera frame; fewer than 30 points give none.
+  std::vector<PpfHypothesis> match(const Cloud& crop);
+
+  /// The start moved by OpenCV's ICP so that `surface` (object frame) lies on `scene` (camera
+  /// frame); the start where that fails.
+  Pose align(const Cloud& surface,
+             const Cloud& scene,
+             const Pose& start,
+             const PpfIcpOptions& options) const;
+
+ private:
+  double diameter_mm_;
+  PpfOptions options_;
+  std::unique_ptr<cv::ppf_match_3d::PPF3DDetector> detector_;
+};
+
+}  // namespace rangepose::peers
