@@ -37,14 +37,14 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   const auto share = [&app](const std::string& name, double& value, const std::string& what) {
     app.add_option(name, value, what)->check(CLI::Range(0.005, 2.0))->capture_default_str();
   };
-  share("--model-spacing", options.ppf.model_spacing, "Of the model's points [diameters]");
-  share("--scene-spacing", options.ppf.scene_spacing, "Of the scene's points [diameters]");
+  share("--spacing", options.ppf.spacing, "Of the points of model and scene [diameters]");
   share("--distance-step", options.ppf.distance_step, "Of distances of pairs [diagonals]");
   share("--crop", options.crop_radius, "Radius around a seed [diameters]");
   share("--seeds-apart", options.seeds_apart, "Distance of seeds [diameters]");
   const auto number = [&app](const std::string& name, int& value, const std::string& what) {
     app.add_option(name, value, what)->check(CLI::Range(1, 10000))->capture_default_str();
   };
+  number("--points", options.ppf.most_points, "Of the model at most; else the spacing grows");
   number("--angles", options.ppf.angles, "Steps of a full turn");
   number("--seeds", options.most_seeds, "Seeds of an object at most");
   number("--glanced", options.glanced, "Poses of a crop with the most votes that are looked at");

@@ -57,9 +57,13 @@ struct PpfEstimator::Scene {
 PpfEstimator::PpfEstimator(const ReferenceDatabase& database, const PpfEstimateOptions& options)
     : database_(database), options_(options), matchers_(database.objects.size()) {
   for (std::size_t i = 0; i < matchers_.size(); ++i) {
-    for (int worker = 0; worker < options.workers; ++worker) {
-      matchers_[i].push_back(std::make_unique<PpfMatcher>(database.objects[i], options.ppf));
-    }
+    matchers_[i].resize(static_cast<std::size_t>(options.workers));
+    parallelFor(options.workers, 1, [&](int begin, int end) {
+      for (int worker = begin; worker < end; ++worker) {
+        matchers_[i][static_cast<std::size_t>(worker)] =
+            std::make_unique<PpfMatcher>(database.objects[i], options.ppf);
+      }
+    });
   }
 }
 
@@ -79,7 +83,7 @@ std::vector<Scored> PpfEstimator::estimate(const DepthImage& depth,
 
 std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t object) {
   const double diameter_mm = database_.objects[object].diameter_mm;
-  const Cloud thin = thinned(scene.cloud, options_.ppf.scene_spacing * diameter_mm);
+  const Cloud thin = thinned(scene.cloud, matchers_[object].front()->spacingMm());
   const std::vector<glm::dvec3> seeds =
       spreadSeeds(thin, options_.seeds_apart * diameter_mm, options_.most_seeds);
   std::vector<std::vector<Scored>> found(seeds.size());
@@ -109,9 +113,7 @@ std::vector<Scored> PpfEstimator::searchCrop(const Scene& scene,
   const double diameter_mm = object.diameter_mm;
   const Cloud around = cropped(scene.cloud, seed, options_.crop_radius * diameter_mm);
   const std::vector<PpfHypothesis> hypotheses =
-      different(matcher.match(thinned(around, options_.ppf.scene_spacing * diameter_mm)),
-                object,
-                options_.glanced);
+      different(matcher.match(thinned(around, matcher.spacingMm())), object, options_.glanced);
   std::vector<Scored> poses;
   for (const PpfHypothesis& hypothesis : hypotheses) {
     poses.push_back({static_cast<int>(index),

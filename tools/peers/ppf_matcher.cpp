@@ -38,7 +38,7 @@ bool finite(const Pose& pose) {
 }
 
 /// All that any view shows; the inside that nobody sees would only add wrong pairs.
-Cloud visibleSurface(const ReferenceObject& object, double spacing_mm) {
+Cloud visibleSurface(const ReferenceObject& object) {
   constexpr std::size_t kViews = 128;
   const std::size_t stride = std::max<std::size_t>(1, object.views.size() / kViews);
   Cloud surface;
@@ -47,7 +47,7 @@ Cloud visibleSurface(const ReferenceObject& object, double spacing_mm) {
         pointsOfView(object, static_cast<int>(view), object.size * object.size);
     surface.insert(surface.end(), seen.begin(), seen.end());
   }
-  return thinned(surface, spacing_mm);
+  return surface;
 }
 
 Cloud moved(const Cloud& cloud, const Pose& pose) {
@@ -62,13 +62,21 @@ Cloud moved(const Cloud& cloud, const Pose& pose) {
 }  // namespace
 
 PpfMatcher::PpfMatcher(const ReferenceObject& object, const PpfOptions& options)
-    : diameter_mm_(object.diameter_mm), options_(options) {
+    : diameter_mm_(object.diameter_mm),
+      spacing_mm_(options.spacing * object.diameter_mm),
+      options_(options) {
   constexpr double kNoClusters = 1e-9;
+  constexpr double kWider = 1.05;
+  const Cloud surface = visibleSurface(object);
+  Cloud points = thinned(surface, spacing_mm_);
+  while (static_cast<int>(points.size()) > options.most_points) {
+    spacing_mm_ *= kWider;
+    points = thinned(surface, spacing_mm_);
+  }
   detector_ = std::make_unique<cv::ppf_match_3d::PPF3DDetector>(
       options.distance_step, options.distance_step, options.angles);
   detector_->setSearchParams(kNoClusters, kNoClusters);
-  const Cloud surface = visibleSurface(object, options.model_spacing * diameter_mm_);
-  detector_->trainModel(rowsOf(surface, diameter_mm_));
+  detector_->trainModel(rowsOf(points, diameter_mm_));
 }
 
 std::vector<PpfHypothesis> PpfMatcher::match(const Cloud& crop) {

@@ -8,6 +8,8 @@
 //   pass; poses of one cluster are averaged. It is turned off by limits that no pose passes.
 // - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 24 degrees
 //   for 30 angles: a pose is a start for ICP, not an answer.
+// - Learning takes time with the square of the number of equal pairs, minutes for a few thousand
+//   points of a turned part: hence a limit to their number.
 #pragma once
 
 #include <memory>
@@ -21,11 +23,11 @@
 namespace rangepose::peers {
 
 struct PpfOptions {
-  double model_spacing = 0.04;    ///< of the model's points [share of the diameter]
-  double scene_spacing = 0.04;    ///< of the scene's points [share of the diameter]
-  double distance_step = 0.04;    ///< of distances of pairs [share of the box's diagonal]
-  int angles = 30;                ///< steps of a full turn
-  double reference_share = 0.2;   ///< of a crop's points that vote
+  double spacing = 0.05;         ///< of the points of model and scene [share of the diameter]
+  int most_points = 700;         ///< of the model; with more of them the spacing grows
+  double distance_step = 0.05;   ///< of distances of pairs [share of the box's diagonal]
+  int angles = 30;               ///< steps of a full turn
+  double reference_share = 0.2;  ///< of a crop's points that vote
 };
 
 struct PpfIcpOptions {
@@ -46,6 +48,9 @@ class PpfMatcher {
   /// Learns the surface that the views of the object show.
   PpfMatcher(const ReferenceObject& object, const PpfOptions& options);
 
+  /// Between the points of the model, and those that the scene should have [mm].
+  double spacingMm() const { return spacing_mm_; }
+
   /// One hypothesis for each point of the crop that votes, most votes first. The crop is in the
   /// camera frame; fewer than 30 points give none.
   std::vector<PpfHypothesis> match(const Cloud& crop);
@@ -59,6 +64,7 @@ class PpfMatcher {
 
  private:
   double diameter_mm_;
+  double spacing_mm_;
   PpfOptions options_;
   std::unique_ptr<cv::ppf_match_3d::PPF3DDetector> detector_;
 };

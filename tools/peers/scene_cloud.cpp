@@ -41,13 +41,12 @@ double linearValue(const Camera& camera, double z_mm) {
 
 /// The normal of the plane value = a * (u - u0) + b * (v - v0) + c, towards the camera.
 glm::dvec3 planeNormal(const Camera& camera, int u0, int v0, const glm::dvec3& abc) {
-  glm::dvec3 normal(abc.x / camera.pixel_size_mm, abc.y / camera.pixel_size_mm, -1.0);
-  if (!camera.orthographic) {
-    const double c = abc.z + abc.x * (camera.cx - u0) + abc.y * (camera.cy - v0);
-    normal = {abc.x * camera.fx, abc.y * camera.fy, c};
-    normal *= -1.0;  // the sum with a point in front of the camera is positive before
-  }
-  return glm::normalize(normal);
+  if (camera.orthographic) return glm::normalize(glm::dvec3(abc.x, abc.y, -camera.pixel_size_mm));
+  // The plane's points p have dot(away, p) = 1, so that it looks away from the camera.
+  const glm::dvec3 away(abc.x * camera.fx,
+                        abc.y * camera.fy,
+                        abc.z + abc.x * (camera.cx - u0) + abc.y * (camera.cy - v0));
+  return -glm::normalize(away);
 }
 
 std::optional<glm::dvec3> normalAt(const DepthImage& image, int u, int v, int reach) {
