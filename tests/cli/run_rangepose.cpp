@@ -60,6 +60,13 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& added) 
 RunResult runRangepose(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder,
                        const std::vector<std::string>& environment) {
+  return runProgram(RP_EXECUTABLE, arguments, folder, environment);
+}
+
+RunResult runProgram(const std::string& executable,
+                     const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& environment) {
   const Capture out;
   const Capture err;
   posix_spawn_file_actions_t actions;
@@ -68,14 +75,18 @@ RunResult runRangepose(const std::vector<std::string>& arguments,
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, out.file(), STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err.file(), STDERR_FILENO);
-  std::vector<std::string> words = {RP_EXECUTABLE};
+  std::vector<std::string> words = {executable};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environmentWith(environment);
   pid_t child = 0;
-  const int failure = posix_spawn(
-      &child, RP_EXECUTABLE, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+  const int failure = posix_spawn(&child,
+                                  executable.c_str(),
+                                  &actions,
+                                  nullptr,
+                                  pointers(words).data(),
+                                  pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
-  if (failure != 0) throw std::runtime_error("cannot start " RP_EXECUTABLE);
+  if (failure != 0) throw std::runtime_error("cannot start " + executable);
   int status = 0;
   if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

@@ -13,6 +13,12 @@ struct RunResult {
   std::string err;
 };
 
+/// Runs any program of the project in the same way.
+RunResult runProgram(const std::string& executable,
+                     const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& environment = {});
+
 /// Runs rangepose with the arguments, in `folder`, with "NAME=value" added to the environment. No
 /// shell is involved.
 RunResult runRangepose(const std::vector<std::string>& arguments,

@@ -10,6 +10,7 @@
 #include "io/bop.h"
 #include "io/depth_file.h"
 #include "peers/ppf_estimate.h"
+#include "rangepose/console.h"
 #include "rangepose/progress.h"
 
 namespace rangepose::peers {
@@ -65,11 +66,12 @@ std::size_t countImages(const BopDataset& data) {
 }
 
 void run(Arguments& arguments) {
+  cli::checkOutputFile(arguments.csv);
   const BopDataset data = openBop(arguments.folder, arguments.split);
   const std::size_t total = countImages(data);
   if (total == 0) {
-    throw Error("BOP data set " + arguments.folder + ": has no images in split " +
-                arguments.split + "; name another one by --split");
+    throw Error("BOP data set " + arguments.folder + ": has no images in split " + arguments.split +
+                "; name another one by --split");
   }
   const ReferenceDatabase database = readDatabase(arguments.database);
   setThreadCount(arguments.threads);

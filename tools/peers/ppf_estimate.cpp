@@ -122,8 +122,8 @@ std::vector<Scored> PpfEstimator::searchCrop(const Scene& scene,
   }
   keepBest(poses, options_.aligned);
   // A part that the seed lies on reaches a diameter far, beyond the crop.
-  const Cloud target = thinned(cropped(scene.cloud, seed, 1.05 * diameter_mm),
-                               kSceneSpacing * diameter_mm);
+  const Cloud target =
+      thinned(cropped(scene.cloud, seed, 1.05 * diameter_mm), kSceneSpacing * diameter_mm);
   const auto align = [&](Scored& pose, double reach, int points, const PpfIcpOptions& icp) {
     const Cloud surface =
         scene.verdict.visible(object, pose.camera_from_object, reach * diameter_mm, points);

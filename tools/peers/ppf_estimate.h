@@ -1,5 +1,6 @@
-// All parts of one depth image by OpenCV's surface_matching, set up as well as we can: a crop around
-// each of many seeds, the best poses of each aligned by its ICP, ranked by what the image says.
+// All parts of one depth image by OpenCV's surface_matching, set up as well as we can: a crop
+// around each of many seeds, the best poses of each aligned by its ICP, ranked by what the image
+// says.
 #pragma once
 
 #include <memory>
@@ -17,8 +18,9 @@ struct PpfEstimateOptions {
   double seeds_apart = 0.35;  ///< [share of the diameter]
   int most_seeds = 80;        ///< of an object
   double crop_radius = 0.8;   ///< around a seed [share of the diameter]
-  int glanced = 40;  ///< hypotheses of a crop with the most votes, different ones, that are looked at
-  int aligned = 8;   ///< of those the ones that explain most are aligned
+  int glanced =
+      40;  ///< hypotheses of a crop with the most votes, different ones, that are looked at
+  int aligned = 8;         ///< of those the ones that explain most are aligned
   int finalists = 2;       ///< aligned ones of a crop that are aligned again, with more points
   double min_score = 0.5;  ///< poses below are not reported
   int workers = 1;         ///< threads; the result does not depend on it

@@ -43,8 +43,7 @@ Cloud visibleSurface(const ReferenceObject& object) {
   const std::size_t stride = std::max<std::size_t>(1, object.views.size() / kViews);
   Cloud surface;
   for (std::size_t view = 0; view < object.views.size(); view += stride) {
-    const Cloud seen =
-        pointsOfView(object, static_cast<int>(view), object.size * object.size);
+    const Cloud seen = pointsOfView(object, static_cast<int>(view), object.size * object.size);
     surface.insert(surface.end(), seen.begin(), seen.end());
   }
   return surface;
@@ -108,10 +107,8 @@ Pose PpfMatcher::align(const Cloud& surface,
       options.iterations, options.tolerance, options.rejection, options.levels);
   double residual = 0.0;
   cv::Matx44d change = cv::Matx44d::eye();
-  icp.registerModelToScene(rowsOf(moved(surface, start), diameter_mm_),
-                           rowsOf(scene, diameter_mm_),
-                           residual,
-                           change);
+  icp.registerModelToScene(
+      rowsOf(moved(surface, start), diameter_mm_), rowsOf(scene, diameter_mm_), residual, change);
   Pose pose = poseOf(change, diameter_mm_) * start;
   pose.rotation = orthonormalized(pose.rotation);
   return finite(pose) ? pose : start;

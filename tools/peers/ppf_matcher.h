@@ -2,11 +2,13 @@
 // of the peers that knows OpenCV.
 //
 // OpenCV 4.6 to 4.10, what must be known of it:
-// - RelativeDistanceStep is ignored; RelativeSamplingStep sets the step of distances, too, and cells
+// - RelativeDistanceStep is ignored; RelativeSamplingStep sets the step of distances, too, and
+// cells
 //   of the sampling follow the bounding box side by side. So points are thinned before, here.
 // - Its clustering compares angles of rotations, not rotations, and with a default limit that all
 //   pass; poses of one cluster are averaged. It is turned off by limits that no pose passes.
-// - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 24 degrees
+// - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 24
+// degrees
 //   for 30 angles: a pose is a start for ICP, not an answer.
 // - Learning takes time with the square of the number of equal pairs, minutes for a few thousand
 //   points of a turned part: hence a limit to their number.

@@ -17,8 +17,8 @@ using Cloud = std::vector<SurfacePoint>;
 /// edges, between holes) are left out.
 Cloud cloudOf(const DepthImage& image, const Image<std::uint8_t>& keep, int reach);
 
-/// One point for all that lie in a cube of `cell_mm` and look the same way: their mean. In the order
-/// of the cubes, whatever the order of the points.
+/// One point for all that lie in a cube of `cell_mm` and look the same way: their mean. In the
+/// order of the cubes, whatever the order of the points.
 Cloud thinned(const Cloud& cloud, double cell_mm);
 
 /// Points of the cloud, each as far as possible from those before (farthest-point sampling), until

@@ -18,8 +18,7 @@ double checked(const DepthImage& depth,
   const SurfaceWindow window =
       wholeWindowAround(depth.camera, pose * object.center_mm, object.radius_mm, pixels);
   if (window.width == 0) return 0.0;
-  const Image<SurfaceTexel> surface =
-      host::renderSurface(object.mesh, depth.camera, pose, window);
+  const Image<SurfaceTexel> surface = host::renderSurface(object.mesh, depth.camera, pose, window);
   return host::check(surface, window, depth, options).score;
 }
 
@@ -67,8 +66,7 @@ std::vector<glm::ivec2> Verdict::explained(const ReferenceObject& object, const 
       windowAround(depth_.camera, pose * object.center_mm, object.radius_mm, all);
   std::vector<glm::ivec2> pixels;
   if (window.width == 0) return pixels;
-  const Image<SurfaceTexel> surface =
-      host::renderSurface(object.mesh, depth_.camera, pose, window);
+  const Image<SurfaceTexel> surface = host::renderSurface(object.mesh, depth_.camera, pose, window);
   const double tolerance = 2.0 * checkOptionsFor(object, noise_mm_).tolerance_mm;
   for (int y = 0; y < surface.height(); ++y) {
     for (int x = 0; x < surface.width(); ++x) {
