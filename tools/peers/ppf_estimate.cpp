@@ -23,27 +23,35 @@ Image<std::uint8_t> foregroundOf(const DepthImage& depth,
   return foregroundMask(depth, findBackground(depth, options), bin, options);
 }
 
+const Pose& poseOf(const PpfHypothesis& hypothesis) { return hypothesis.camera_from_object; }
+const Pose& poseOf(const Scored& scored) { return scored.camera_from_object; }
+
 /// The first `count` that are no copies of one before.
-std::vector<PpfHypothesis> different(const std::vector<PpfHypothesis>& hypotheses,
-                                     const ReferenceObject& object,
-                                     int count) {
-  constexpr double kSame = 0.08;
+template <typename Found>
+std::vector<Found> different(const std::vector<Found>& found,
+                             const ReferenceObject& object,
+                             std::size_t count,
+                             double same) {
   const PoseDistance distance(object);
-  std::vector<PpfHypothesis> kept;
-  for (const PpfHypothesis& hypothesis : hypotheses) {
-    if (static_cast<int>(kept.size()) >= count) break;
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const PpfHypothesis& other) {
-      return distance.below(kSame, other.camera_from_object, hypothesis.camera_from_object);
+  std::vector<Found> kept;
+  for (const Found& one : found) {
+    if (kept.size() >= count) break;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
+      return distance.below(same, poseOf(other), poseOf(one));
     });
-    if (!known) kept.push_back(hypothesis);
+    if (!known) kept.push_back(one);
   }
   return kept;
 }
 
-void keepBest(std::vector<Scored>& poses, int count) {
+void sortByScore(std::vector<Scored>& poses) {
   std::stable_sort(poses.begin(), poses.end(), [](const Scored& a, const Scored& b) {
     return a.score > b.score;
   });
+}
+
+void keepBest(std::vector<Scored>& poses, int count) {
+  sortByScore(poses);
   if (static_cast<int>(poses.size()) > count) poses.resize(static_cast<std::size_t>(count));
 }
 
@@ -51,7 +59,9 @@ void keepBest(std::vector<Scored>& poses, int count) {
 
 struct PpfEstimator::Scene {
   Verdict verdict;
-  Cloud cloud;  ///< all of the foreground
+  Cloud cloud;    ///< all of the foreground
+  Cloud matched;  ///< of it what pairs are made of
+  Cloud aligned;  ///< of it what ICP aligns to
 };
 
 PpfEstimator::PpfEstimator(const ReferenceDatabase& database, const PpfEstimateOptions& options)
@@ -70,33 +80,45 @@ PpfEstimator::PpfEstimator(const ReferenceDatabase& database, const PpfEstimateO
 std::vector<Scored> PpfEstimator::estimate(const DepthImage& depth,
                                            const std::optional<BinBox>& bin) {
   constexpr int kNormalReach = 3;
+  constexpr double kIcpSpacing = 0.012;  // [share of the diameter]
   const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-  const Scene scene{Verdict(depth, estimateDepthNoise(depth, everything)),
-                    cloudOf(depth, foregroundOf(depth, bin, database_), kNormalReach)};
+  Scene scene{Verdict(depth, estimateDepthNoise(depth, everything)),
+              cloudOf(depth, foregroundOf(depth, bin, database_), kNormalReach),
+              {},
+              {}};
   std::vector<Scored> poses;
   for (std::size_t object = 0; object < database_.objects.size(); ++object) {
+    scene.matched = thinned(scene.cloud, matchers_[object].front()->spacingMm());
+    scene.aligned = thinned(scene.cloud, kIcpSpacing * database_.objects[object].diameter_mm);
     const std::vector<Scored> own = search(scene, object);
     poses.insert(poses.end(), own.begin(), own.end());
   }
   return scene.verdict.withoutRivals(std::move(poses), database_.objects, options_.min_score);
 }
 
-std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t object) {
-  const double diameter_mm = database_.objects[object].diameter_mm;
-  const Cloud thin = thinned(scene.cloud, matchers_[object].front()->spacingMm());
+std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t index) {
+  constexpr double kSame = 0.03;  // [share of the diameter]
+  const ReferenceObject& object = database_.objects[index];
   const std::vector<glm::dvec3> seeds =
-      spreadSeeds(thin, options_.seeds_apart * diameter_mm, options_.most_seeds);
+      spreadSeeds(scene.matched, options_.seeds_apart * object.diameter_mm, options_.most_seeds);
   std::vector<std::vector<Scored>> found(seeds.size());
+  const auto workers = static_cast<std::size_t>(options_.workers);
   parallelFor(options_.workers, 1, [&](int begin, int end) {
     for (int worker = begin; worker < end; ++worker) {
       const auto first = static_cast<std::size_t>(worker);
-      for (std::size_t i = first; i < seeds.size(); i += matchers_[object].size()) {
-        found[i] = searchCrop(scene, object, seeds[i], *matchers_[object][first]);
+      for (std::size_t i = first; i < seeds.size(); i += workers) {
+        found[i] = searchCrop(scene, index, seeds[i], *matchers_[index][first]);
       }
     }
   });
   std::vector<Scored> poses;
   for (const auto& of_seed : found) poses.insert(poses.end(), of_seed.begin(), of_seed.end());
+  // Crops overlap: a part is found from several seeds, and aligned finally once.
+  sortByScore(poses);
+  poses = different(poses, object, poses.size(), kSame);
+  parallelFor(static_cast<int>(poses.size()), 1, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) alignFinally(scene, poses[static_cast<std::size_t>(i)]);
+  });
   return poses;
 }
 
@@ -105,41 +127,48 @@ std::vector<Scored> PpfEstimator::searchCrop(const Scene& scene,
                                              const glm::dvec3& seed,
                                              PpfMatcher& matcher) const {
   constexpr PpfIcpOptions kShort{30, 0.01f, 2.5f, 3};
-  constexpr PpfIcpOptions kLong{100, 0.0005f, 2.5f, 3};
-  constexpr int kFewPoints = 250;
-  constexpr int kManyPoints = 900;
-  constexpr double kSceneSpacing = 0.012;  // for ICP [share of the diameter]
+  constexpr int kPoints = 250;
+  constexpr double kReach = 0.1;  // [share of the diameter]
+  constexpr double kSame = 0.08;  // [share of the diameter]
   const ReferenceObject& object = database_.objects[index];
   const double diameter_mm = object.diameter_mm;
-  const Cloud around = cropped(scene.cloud, seed, options_.crop_radius * diameter_mm);
+  const Cloud crop = cropped(scene.matched, seed, options_.crop_radius * diameter_mm);
   const std::vector<PpfHypothesis> hypotheses =
-      different(matcher.match(thinned(around, matcher.spacingMm())), object, options_.glanced);
+      different(matcher.match(crop), object, static_cast<std::size_t>(options_.glanced), kSame);
   std::vector<Scored> poses;
+  poses.reserve(hypotheses.size());
   for (const PpfHypothesis& hypothesis : hypotheses) {
-    poses.push_back({static_cast<int>(index),
-                     hypothesis.camera_from_object,
-                     scene.verdict.glance(object, hypothesis.camera_from_object)});
+    const Pose& pose = hypothesis.camera_from_object;
+    poses.push_back({static_cast<int>(index), pose, scene.verdict.glance(object, pose)});
   }
   keepBest(poses, options_.aligned);
-  // A part that the seed lies on reaches a diameter far, beyond the crop.
-  const Cloud target =
-      thinned(cropped(scene.cloud, seed, 1.05 * diameter_mm), kSceneSpacing * diameter_mm);
-  const auto align = [&](Scored& pose, double reach, int points, const PpfIcpOptions& icp) {
-    const Cloud surface =
-        scene.verdict.visible(object, pose.camera_from_object, reach * diameter_mm, points);
-    pose.camera_from_object = matcher.align(surface, target, pose.camera_from_object, icp);
-  };
+  // A part that the seed lies on reaches up to a diameter far, beyond the crop.
+  const Cloud target = cropped(scene.aligned, seed, 1.05 * diameter_mm);
   for (Scored& pose : poses) {
-    align(pose, 0.1, kFewPoints, kShort);
+    const Cloud surface =
+        scene.verdict.visible(object, pose.camera_from_object, kReach * diameter_mm, kPoints);
+    pose.camera_from_object = matcher.align(surface, target, pose.camera_from_object, kShort);
     pose.score = scene.verdict.score(object, pose.camera_from_object);
   }
   keepBest(poses, options_.finalists);
-  for (Scored& pose : poses) {
-    align(pose, 0.06, kManyPoints, kLong);
-    align(pose, 0.04, kManyPoints, kLong);
-    pose.score = scene.verdict.score(object, pose.camera_from_object);
-  }
   return poses;
+}
+
+void PpfEstimator::alignFinally(const Scene& scene, Scored& pose) const {
+  constexpr PpfIcpOptions kLong{100, 0.0005f, 2.5f, 3};
+  constexpr int kPoints = 900;
+  const auto index = static_cast<std::size_t>(pose.object);
+  const ReferenceObject& object = database_.objects[index];
+  const Cloud target =
+      cropped(scene.aligned, pose.camera_from_object * object.center_mm, 1.1 * object.radius_mm);
+  // What is visible changes a little with the pose: twice, with a smaller reach.
+  for (const double reach : {0.06, 0.04}) {
+    const Cloud surface =
+        scene.verdict.visible(object, pose.camera_from_object, reach * object.diameter_mm, kPoints);
+    pose.camera_from_object =
+        matchers_[index].front()->align(surface, target, pose.camera_from_object, kLong);
+  }
+  pose.score = scene.verdict.score(object, pose.camera_from_object);
 }
 
 }  // namespace rangepose::peers

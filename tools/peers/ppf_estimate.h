@@ -17,12 +17,11 @@ struct PpfEstimateOptions {
   PpfOptions ppf;
   double seeds_apart = 0.35;  ///< [share of the diameter]
   int most_seeds = 80;        ///< of an object
-  double crop_radius = 0.8;   ///< around a seed [share of the diameter]
-  int glanced =
-      40;  ///< hypotheses of a crop with the most votes, different ones, that are looked at
+  double crop_radius = 0.5;   ///< around a seed [share of the diameter]
+  int glanced = 40;        ///< hypotheses of a crop with the most votes, different ones, looked at
   int aligned = 8;         ///< of those the ones that explain most are aligned
   int finalists = 2;       ///< aligned ones of a crop that are aligned again, with more points
-  double min_score = 0.5;  ///< poses below are not reported
+  double min_score = 0.4;  ///< poses below are not reported
   int workers = 1;         ///< threads; the result does not depend on it
 };
 
@@ -36,11 +35,14 @@ class PpfEstimator {
 
  private:
   struct Scene;
+  /// Aligned and scored poses of an object.
   std::vector<Scored> search(const Scene& scene, std::size_t object);
+  /// The finalists around a seed, roughly aligned.
   std::vector<Scored> searchCrop(const Scene& scene,
                                  std::size_t object,
                                  const glm::dvec3& seed,
                                  PpfMatcher& matcher) const;
+  void alignFinally(const Scene& scene, Scored& pose) const;
 
   const ReferenceDatabase& database_;
   PpfEstimateOptions options_;
