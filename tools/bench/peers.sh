@@ -26,7 +26,7 @@ fi
 } > /dev/null
 if ! cmake --build "$build" --target rangepose_ppf_program > /dev/null 2>&1; then
   echo "tools/bench/peers.sh: rangepose_ppf cannot be built; apt-get install --no-install-recommends" \
-    "libopencv-contrib-dev, remove $build/CMakeCache.txt, and try again" >&2
+    "libopencv-contrib-dev and try again" >&2
   exit 1
 fi
 mkdir -p "$out"
@@ -34,12 +34,12 @@ mkdir -p "$out"
 # row NAME SYSTEM BOP CSV: the line of all objects, and the time, as `rangepose evaluate` prints them.
 row() {
   "$rangepose" evaluate --bop "$3" --csv "$4" > "$4.md"
-  awk -F ' *[|] *' -v part="$1" -v system="$2" '
+  awk -F ' *[|] *' -v part="$1" -v by="$2" '
     / s an image on average/ { time = $0; sub(/ s an image.*/, "", time); sub(/.* /, "", time) }
     $2 == "object" && $3 == "images" && !columns { columns = NF; for (i = 2; i < NF; ++i) at[$i] = i }
     $2 == "all" && columns && !done {
       done = 1
-      printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s |", part, system, $at["parts"], $at["first pick [%]"],
+      printf "| %s | %s | %s | %s | %s | %s | %s | %s | %s |", part, by, $at["parts"], $at["first pick [%]"],
         $at["recall [%]"], $at["recall at 2 % [%]"], $at["precision [%]"], $at["AP"], $at["median MSSD [% of diameter]"]
     }
     END { printf " %s |\n", time }' "$4.md"

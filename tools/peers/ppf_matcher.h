@@ -28,7 +28,7 @@ struct PpfOptions {
   double spacing = 0.05;         ///< of the points of model and scene [share of the diameter]
   int most_points = 700;         ///< of the model; with more of them the spacing grows
   double distance_step = 0.05;   ///< of distances of pairs [share of the box's diagonal]
-  int angles = 30;               ///< steps of a full turn
+  int angles = 40;               ///< steps of a full turn
   double reference_share = 0.2;  ///< of a crop's points that vote
 };
 
