@@ -1,15 +1,13 @@
 // OpenCV contrib's surface_matching for one object: point pair features, and its ICP. The only file
 // of the peers that knows OpenCV.
 //
-// OpenCV 4.6 to 4.10, what must be known of it:
-// - RelativeDistanceStep is ignored; RelativeSamplingStep sets the step of distances, too, and
-// cells
-//   of the sampling follow the bounding box side by side. So points are thinned before, here.
+// What must be known of OpenCV 4.6:
+// - RelativeDistanceStep is ignored, RelativeSamplingStep sets the step of distances, too; the
+//   cells of the sampling follow the bounding box side by side. So points are thinned here before.
 // - Its clustering compares angles of rotations, not rotations, and with a default limit that all
 //   pass; poses of one cluster are averaged. It is turned off by limits that no pose passes.
-// - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 24
-// degrees
-//   for 30 angles: a pose is a start for ICP, not an answer.
+// - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 18
+//   degrees for 40 angles: a pose is a start for ICP, not an answer.
 // - Learning takes time with the square of the number of equal pairs, minutes for a few thousand
 //   points of a turned part: hence a limit to their number.
 #pragma once
