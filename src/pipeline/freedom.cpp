@@ -101,8 +101,7 @@ FoundScene::FoundScene(const std::vector<PoseEstimate>& poses,
                    const float gap = std::abs(texel.w - depth_.depth_mm.at(x, y));
                    if (static_cast<double>(gap) < same_mm) unexplained_.at(x, y) = 0;
                  });
-    reach_mm_ =
-        std::max(reach_mm_, glm::length(pose.pose * object.center_mm) + object.radius_mm);
+    reach_mm_ = std::max(reach_mm_, glm::length(pose.pose * object.center_mm) + object.radius_mm);
   }
   for (int y = 0; y < depth_.depth_mm.height(); ++y) {
     for (int x = 0; x < depth_.depth_mm.width(); ++x) {

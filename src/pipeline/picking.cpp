@@ -41,12 +41,12 @@ std::vector<glm::dvec3> approaches(const CellFrame& cell, double cone_rad) {
   return directions;
 }
 
-bool inside(const glm::dvec3& position, const PickingOptions::Box& box) {
+bool inside(const glm::dvec3& position, const PickOptions::Box& box) {
   return glm::all(glm::greaterThanEqual(position, box.low_mm)) &&
          glm::all(glm::lessThanEqual(position, box.high_mm));
 }
 
-bool canBePicked(const Pick& pick, const PickingOptions& options) {
+bool canBePicked(const Pick& pick, const PickOptions& options) {
   if (options.workspace && !inside(pick.position_mm, *options.workspace)) return false;
   return pick.freedom >= options.min_freedom;
 }
@@ -80,7 +80,7 @@ std::vector<Pick> allPicks(const std::vector<PoseEstimate>& poses,
 
 }  // namespace
 
-void PickingOptions::check() const {
+void PickOptions::check() const {
   RP_CHECK(cone_rad >= 0.0 && cone_rad < 1.4, "cone_rad must lie in 0..1.4");
   RP_CHECK(min_freedom >= 0.0 && min_freedom <= 1.0, "min_freedom must lie in 0..1");
   RP_CHECK(max_picks >= 0, "max_picks must not be negative");
@@ -94,7 +94,7 @@ std::vector<Pick> pickingOrder(const std::vector<PoseEstimate>& poses,
                                double noise_mm,
                                const std::optional<BinBox>& bin,
                                const ReferenceDatabase& database,
-                               const PickingOptions& options) {
+                               const PickOptions& options) {
   options.check();
   const CellFrame cell(bin);
   const FoundScene scene(poses, depth, noise_mm, database);

@@ -11,7 +11,7 @@ namespace rangepose {
 
 /// Positions are in the frame of the bin, without a bin in that of the camera. Up is the bin's z,
 /// without a bin towards the camera along its axis.
-struct PickingOptions {
+struct PickOptions {
   /// The tool comes down along directions that lean at most this far from straight down [rad],
   /// below 1.4 (80 degrees). 0: straight down only.
   double cone_rad = 0.0;
@@ -49,6 +49,6 @@ std::vector<Pick> pickingOrder(const std::vector<PoseEstimate>& poses,
                                double noise_mm,
                                const std::optional<BinBox>& bin,
                                const ReferenceDatabase& database,
-                               const PickingOptions& options);
+                               const PickOptions& options);
 
 }  // namespace rangepose

@@ -50,7 +50,7 @@ struct Scene {
   void see(const glm::dvec3& center) {
     test::measure(image, cubes().objects[0].mesh, {glm::dmat3(1.0), center});
   }
-  std::vector<Pick> picks(const PickingOptions& options = {},
+  std::vector<Pick> picks(const PickOptions& options = {},
                           const std::optional<BinBox>& bin = std::nullopt) const {
     return pickingOrder(poses, image, 0.05, bin, cubes(), options);
   }
@@ -72,8 +72,8 @@ double freedomOf(const std::vector<Pick>& picks, std::size_t pose) {
 /// On the table, z towards the camera, leaning by `lean_rad` towards the camera's x.
 BinBox binLeaning(double lean_rad) {
   BinBox bin;
-  bin.camera_from_bin.rotation = rotationFromVector({0.0, lean_rad, 0.0}) *
-                                 rotationFromVector({std::numbers::pi, 0.0, 0.0});
+  bin.camera_from_bin.rotation =
+      rotationFromVector({0.0, lean_rad, 0.0}) * rotationFromVector({std::numbers::pi, 0.0, 0.0});
   bin.camera_from_bin.translation_mm = {0.0, 0.0, kTableMm};
   bin.inner_size_mm = glm::dvec3(300.0);
   return bin;
@@ -133,7 +133,7 @@ TEST(PickingTest, ToolThatMayLeanReachesUnderAnOverhang) {
   Scene scene;
   scene.add({0.0, 0.0, 580.0});
   scene.add({10.0, 0.0, 500.0});
-  PickingOptions options;
+  PickOptions options;
   const double straight = freedomOf(scene.picks(options), 0);
   EXPECT_NEAR(straight, 0.25, kShareTolerance);
   options.cone_rad = 0.7;
@@ -149,7 +149,7 @@ TEST(PickingTest, CoveredPartsAreLeftOut) {
   Scene scene;
   scene.add({0.0, 0.0, 580.0});
   scene.add({kHalfMm, 0.0, 535.0});
-  PickingOptions options;
+  PickOptions options;
   options.min_freedom = 0.6;
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(1));
   options.min_freedom = 0.4;
@@ -169,7 +169,7 @@ TEST(PickingTest, PartsNearTheArmAreFirst) {
   scene.add({-80.0, 0.0, 580.0}, 0.97);
   scene.add({0.0, 0.0, 560.0}, 0.93);
   scene.add({80.0, 0.0, 540.0}, 0.75);
-  PickingOptions options;
+  PickOptions options;
   options.arm_mm = glm::dvec3(-500.0, 0.0, 500.0);
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0, 1, 2));
   options.arm_mm = glm::dvec3(500.0, 0.0, 500.0);
@@ -180,8 +180,8 @@ TEST(PickingTest, WorkspaceIsInTheFrameOfTheBin) {
   Scene scene;
   scene.add({-80.0, 0.0, 580.0});
   scene.add({80.0, 0.0, 580.0});
-  PickingOptions options;
-  options.workspace = PickingOptions::Box{{0.0, -50.0, 0.0}, {100.0, 50.0, 100.0}};
+  PickOptions options;
+  options.workspace = PickOptions::Box{{0.0, -50.0, 0.0}, {100.0, 50.0, 100.0}};
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre()) << "z is 580 in the camera's frame";
   EXPECT_THAT(orderOf(scene.picks(options, binLeaning(0.0))), ElementsAre(1));
 }
@@ -190,8 +190,8 @@ TEST(PickingTest, PartOutOfReachCoversNevertheless) {
   Scene scene;
   scene.add({0.0, 0.0, 580.0});
   scene.add({kHalfMm, 0.0, 535.0});
-  PickingOptions options;
-  options.workspace = PickingOptions::Box{{-5.0, -5.0, 500.0}, {5.0, 5.0, 600.0}};
+  PickOptions options;
+  options.workspace = PickOptions::Box{{-5.0, -5.0, 500.0}, {5.0, 5.0, 600.0}};
   const std::vector<Pick> picks = scene.picks(options);
   EXPECT_THAT(orderOf(picks), ElementsAre(0));
   EXPECT_NEAR(freedomOf(picks, 0), 0.5, kShareTolerance);
@@ -202,16 +202,16 @@ TEST(PickingTest, FewPicksAreTheSurestWithinReach) {
   scene.add({-80.0, 0.0, 580.0}, 0.97);
   scene.add({0.0, 0.0, 560.0}, 0.93);
   scene.add({80.0, 0.0, 540.0}, 0.75);
-  PickingOptions options;
+  PickOptions options;
   options.max_picks = 1;
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0));
-  options.workspace = PickingOptions::Box{{-10.0, -50.0, 0.0}, {100.0, 50.0, 1000.0}};
+  options.workspace = PickOptions::Box{{-10.0, -50.0, 0.0}, {100.0, 50.0, 1000.0}};
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(1));
 }
 
 TEST(PickingTest, BadOptionsAreNamed) {
   const auto errorWith = [](const auto& change) -> std::string {
-    PickingOptions options;
+    PickOptions options;
     change(options);
     try {
       options.check();
@@ -220,12 +220,11 @@ TEST(PickingTest, BadOptionsAreNamed) {
     }
     return "no error";
   };
-  EXPECT_THAT(errorWith([](PickingOptions& o) { o.cone_rad = 1.5; }), HasSubstr("cone_rad"));
-  EXPECT_THAT(errorWith([](PickingOptions& o) { o.min_freedom = 1.1; }), HasSubstr("min_freedom"));
-  EXPECT_THAT(errorWith([](PickingOptions& o) { o.max_picks = -1; }), HasSubstr("max_picks"));
-  EXPECT_THAT(errorWith([](PickingOptions& o) { o.workspace.emplace(); }), HasSubstr("workspace"));
-  EXPECT_THAT(errorWith([](PickingOptions& o) { o.arm_mm = glm::dvec3(NAN); }),
-              HasSubstr("arm_mm"));
+  EXPECT_THAT(errorWith([](PickOptions& o) { o.cone_rad = 1.5; }), HasSubstr("cone_rad"));
+  EXPECT_THAT(errorWith([](PickOptions& o) { o.min_freedom = 1.1; }), HasSubstr("min_freedom"));
+  EXPECT_THAT(errorWith([](PickOptions& o) { o.max_picks = -1; }), HasSubstr("max_picks"));
+  EXPECT_THAT(errorWith([](PickOptions& o) { o.workspace.emplace(); }), HasSubstr("workspace"));
+  EXPECT_THAT(errorWith([](PickOptions& o) { o.arm_mm = glm::dvec3(NAN); }), HasSubstr("arm_mm"));
 }
 
 }  // namespace
