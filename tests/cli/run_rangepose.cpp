@@ -1,13 +1,17 @@
 #include "cli/run_rangepose.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace rangepose::test {
 namespace {
@@ -55,11 +59,19 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& added) 
   return all;
 }
 
-}  // namespace
+/// Waits for the end of a process; returns what waitpid() says of it.
+using Wait = std::function<int(pid_t child)>;
 
-RunResult runRangepose(const std::vector<std::string>& arguments,
-                       const std::filesystem::path& folder,
-                       const std::vector<std::string>& environment) {
+int waitForEnd(pid_t child) {
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
+  return status;
+}
+
+RunResult runAndWait(const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& environment,
+                     const Wait& wait) {
   const Capture out;
   const Capture err;
   posix_spawn_file_actions_t actions;
@@ -76,10 +88,32 @@ RunResult runRangepose(const std::vector<std::string>& arguments,
       &child, RP_EXECUTABLE, &actions, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::runtime_error("cannot start " RP_EXECUTABLE);
-  int status = 0;
-  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
+  const int status = wait(child);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, out.text(), err.text()};
+}
+
+}  // namespace
+
+RunResult runRangepose(const std::vector<std::string>& arguments,
+                       const std::filesystem::path& folder,
+                       const std::vector<std::string>& environment) {
+  return runAndWait(arguments, folder, environment, waitForEnd);
+}
+
+RunResult runRangeposeUntil(const std::function<bool()>& condition,
+                            const std::vector<std::string>& arguments,
+                            const std::filesystem::path& folder) {
+  return runAndWait(arguments, folder, {}, [&](pid_t child) {
+    int status = 0;
+    for (;;) {
+      if (waitpid(child, &status, WNOHANG) != 0) return status;
+      if (condition()) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, SIGKILL);
+    return waitForEnd(child);
+  });
 }
 
 }  // namespace rangepose::test

@@ -64,8 +64,8 @@ void checkUsage(const EstimateArguments& arguments, bool split_given) {
     throw UsageError("--first, --all and --max-poses exclude each other; give one of them");
   }
   if (arguments.bop.folder.empty()) {
-    if (!arguments.bop.csv.empty() || split_given) {
-      throw UsageError("--csv and --split belong to --bop DIR; use --json for one image");
+    if (!arguments.bop.csv.empty() || split_given || arguments.bop.resume) {
+      throw UsageError("--csv, --split and --resume belong to --bop DIR; use --json for one image");
     }
     checkScene(scene);
     return;
@@ -156,7 +156,8 @@ int estimate(EstimateArguments arguments, bool split_given) {
   const PathStages path = openPath(parsePathRequest(arguments.path), cudaOptions(arguments.cuda));
   const ReferenceDatabase database = readDatabase(arguments.scene.database);
   if (!arguments.bop.folder.empty()) {
-    return runBop(arguments.bop, database, arguments.options, *path.stages);
+    return runBop(
+        arguments.bop, arguments.scene.database, database, arguments.options, *path.stages);
   }
   return estimateScene(arguments, database, *path.stages);
 }
@@ -175,6 +176,9 @@ void declareOutputs(CLI::App& command, EstimateArguments& arguments) {
           "--dump", arguments.dump, "Write pictures of all stages and a page to this folder")
       ->option_text("DIR");
   command.add_option("--csv", arguments.bop.csv, "Result file of --bop")->option_text("FILE");
+  command.add_flag("--resume",
+                   arguments.bop.resume,
+                   "Go on with a run over --bop that was interrupted, from FILE.partial of --csv");
 }
 
 void declareSearch(CLI::App& command, EstimateArguments& arguments) {
