@@ -3,6 +3,7 @@
 
 #include "core/byte_stream.h"
 #include "database/reference_database.h"
+#include "geometry/surface_sample.h"
 
 namespace rangepose {
 namespace {
@@ -91,6 +92,7 @@ ReferenceObject readObject(ByteReader& in) {
   ReferenceObject object;
   object.id = in.value<std::int32_t>();
   object.mesh = readMesh(in);
+  object.thickness_mm = thickness(object.mesh);
   object.symmetries = readSymmetries(in);
   object.center_mm = in.value<glm::dvec3>();
   object.radius_mm = in.value<double>();

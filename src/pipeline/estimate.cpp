@@ -19,11 +19,20 @@ constexpr int kMaxScenePx = 1024;
 constexpr double kTriedApart = 0.1;
 constexpr int kFruitlessPasses = 2;
 
-double largestDiameter(const ReferenceDatabase& database) {
-  double largest = 0.0;
+ForegroundOptions foregroundOptions(const ReferenceDatabase& database, double noise_mm) {
+  ForegroundOptions options;
+  options.part_mm = 0.0;
   for (const ReferenceObject& object : database.objects)
-    largest = std::max(largest, object.diameter_mm);
-  return largest;
+    options.part_mm = std::max(options.part_mm, object.diameter_mm);
+  const double coarse_mm = std::max(1.5, 0.02 * options.part_mm);
+  // A thin part must not go with the table that it lies on, as far as the noise allows.
+  const double least_mm = std::min(coarse_mm, 3.0 * noise_mm);
+  options.tolerance_mm = coarse_mm;
+  for (const ReferenceObject& object : database.objects) {
+    const double finer_mm = object.finerIfThin(coarse_mm);
+    options.tolerance_mm = std::min(options.tolerance_mm, std::max(finer_mm, least_mm));
+  }
+  return options;
 }
 
 PoseEstimate estimateOf(const Candidate& candidate) {
@@ -214,7 +223,9 @@ std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDa
   std::vector<std::string> warnings;
   for (const ReferenceObject& object : database.objects) {
     const double pixels = object.diameter_mm / spacing;
-    if (pixels >= 6.0 && object.diameter_mm <= 2.0 * image_mm) continue;
+    // Either way nothing would be found, and a wrong power of ten is the likely reason.
+    constexpr double kFewestPx = 12.0;
+    if (pixels >= kFewestPx && object.diameter_mm <= image_mm) continue;
     warnings.push_back(
         "object " + object.mesh.name + " is " + std::to_string(std::lround(object.diameter_mm)) +
         " mm wide and the image " + std::to_string(std::lround(image_mm)) +
@@ -272,12 +283,10 @@ Estimate estimatePoses(const DepthImage& depth,
   {
     const ScopedTimer timer(result.times, "foreground");
     const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-    ForegroundOptions foreground_options;
-    foreground_options.part_mm = largestDiameter(database);
-    foreground_options.tolerance_mm = std::max(1.5, 0.02 * foreground_options.part_mm);
+    result.noise_mm = estimateDepthNoise(depth, everything);
+    const ForegroundOptions foreground_options = foregroundOptions(database, result.noise_mm);
     result.background = findBackground(depth, foreground_options);
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
-    result.noise_mm = estimateDepthNoise(depth, everything);
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);
