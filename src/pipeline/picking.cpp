@@ -41,7 +41,7 @@ std::vector<glm::dvec3> approaches(const CellFrame& cell, double cone_rad) {
   return directions;
 }
 
-bool inside(const glm::dvec3& position, const PickOptions::Box& box) {
+bool inside(const glm::dvec3& position, const Workspace& box) {
   return glm::all(glm::greaterThanEqual(position, box.low_mm)) &&
          glm::all(glm::lessThanEqual(position, box.high_mm));
 }

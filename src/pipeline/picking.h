@@ -9,21 +9,23 @@
 
 namespace rangepose {
 
+/// A box that a robot reaches.
+struct Workspace {
+  glm::dvec3 low_mm{0.0};
+  glm::dvec3 high_mm{0.0};
+};
+
 /// Positions are in the frame of the bin, without a bin in that of the camera. Up is the bin's z,
 /// without a bin towards the camera along its axis.
 struct PickOptions {
   /// The tool comes down along directions that lean at most this far from straight down [rad],
   /// below 1.4 (80 degrees). 0: straight down only.
   double cone_rad = 0.0;
-  double min_freedom = 0.0;  ///< parts that are less free cannot be picked, 0..1
-  struct Box {
-    glm::dvec3 low_mm{0.0};
-    glm::dvec3 high_mm{0.0};
-  };
-  std::optional<Box> workspace;      ///< parts whose centre lies outside cannot be picked
-  std::optional<glm::dvec3> arm_mm;  ///< parts near to it go first, in place of high ones
-  int max_picks = 0;                 ///< of those that can be picked, the surest; 0: all
-  void check() const;                ///< throws Error naming the bad field
+  double min_freedom = 0.0;            ///< parts that are less free cannot be picked, 0..1
+  std::optional<Workspace> workspace;  ///< parts whose centre lies outside cannot be picked
+  std::optional<glm::dvec3> arm_mm;    ///< parts near to it go first, in place of high ones
+  int max_picks = 0;                   ///< of those that can be picked, the surest; 0: all
+  void check() const;                  ///< throws Error naming the bad field
 };
 
 struct Pick {

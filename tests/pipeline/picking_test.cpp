@@ -181,7 +181,7 @@ TEST(PickingTest, WorkspaceIsInTheFrameOfTheBin) {
   scene.add({-80.0, 0.0, 580.0});
   scene.add({80.0, 0.0, 580.0});
   PickOptions options;
-  options.workspace = PickOptions::Box{{0.0, -50.0, 0.0}, {100.0, 50.0, 100.0}};
+  options.workspace = Workspace{{0.0, -50.0, 0.0}, {100.0, 50.0, 100.0}};
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre()) << "z is 580 in the camera's frame";
   EXPECT_THAT(orderOf(scene.picks(options, binLeaning(0.0))), ElementsAre(1));
 }
@@ -191,7 +191,7 @@ TEST(PickingTest, PartOutOfReachCoversNevertheless) {
   scene.add({0.0, 0.0, 580.0});
   scene.add({kHalfMm, 0.0, 535.0});
   PickOptions options;
-  options.workspace = PickOptions::Box{{-5.0, -5.0, 500.0}, {5.0, 5.0, 600.0}};
+  options.workspace = Workspace{{-5.0, -5.0, 500.0}, {5.0, 5.0, 600.0}};
   const std::vector<Pick> picks = scene.picks(options);
   EXPECT_THAT(orderOf(picks), ElementsAre(0));
   EXPECT_NEAR(freedomOf(picks, 0), 0.5, kShareTolerance);
@@ -205,7 +205,7 @@ TEST(PickingTest, FewPicksAreTheSurestWithinReach) {
   PickOptions options;
   options.max_picks = 1;
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0));
-  options.workspace = PickOptions::Box{{-10.0, -50.0, 0.0}, {100.0, 50.0, 1000.0}};
+  options.workspace = Workspace{{-10.0, -50.0, 0.0}, {100.0, 50.0, 1000.0}};
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(1));
 }
 

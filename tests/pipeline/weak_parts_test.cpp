@@ -1,8 +1,8 @@
 // Parts that are hard for the method: what still holds for them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <iostream>
-#include <map>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -25,14 +25,26 @@ PlacedPart placed(const glm::dvec3& rotation_vector, const glm::dvec3& translati
 }
 
 /// The parts on a table, by a structured-light sensor 650 mm away; all that is found of them.
-Judged searched(const Mesh& mesh,
+Judged searched(const ReferenceDatabase& database,
                 const std::vector<PlacedPart>& parts,
                 const ScannerOptions& options = {}) {
-  const ReferenceDatabase database = test::databaseOfMeshes({mesh});
+  const Mesh& mesh = database.objects.front().mesh;
   const Scan scan = scanHeap({mesh}, parts, options);
   const Judged judged = test::judge(test::estimateAll(scan.image, database), scan, database, {0});
   std::cout << "  " << mesh.name << ": " << judged << "\n";
   return judged;
+}
+
+Judged searched(const Mesh& mesh, const std::vector<PlacedPart>& parts) {
+  return searched(test::databaseOfMeshes({mesh}), parts);
+}
+
+/// Four parts: place(k) says where part k lies.
+template <typename Place>
+std::vector<PlacedPart> rowOfFour(const Place& place) {
+  std::vector<PlacedPart> row(4);
+  for (int k = 0; k < 4; ++k) row[static_cast<std::size_t>(k)] = placed({}, place(k));
+  return row;
 }
 
 /// 80 x 50 mm with a corner cut off and a hole beside the middle.
@@ -111,9 +123,8 @@ INSTANTIATE_TEST_SUITE_P(Radius, ThinRodTest, testing::Values(6.0, 4.0, 2.5), []
 TEST(TouchingTest, BlocksFlushInARowAreFoundInPart) {
   Mesh mesh = test::meshOf({{{0.0, 0.0, 0.0}, {60.0, 40.0, 30.0}}});
   mesh.name = "flush blocks";
-  std::vector<PlacedPart> row;
-  for (int k = 0; k < 4; ++k) row.push_back(placed({}, {-30.0, -80.0 + 40.0 * k, 0.0}));
-  const Judged judged = searched(mesh, row);
+  const Judged judged =
+      searched(mesh, rowOfFour([](int k) { return glm::dvec3(-30.0, -80.0 + 40.0 * k, 0.0); }));
   EXPECT_GE(judged.right, 2) << "those at the ends";
   EXPECT_LE(judged.wrong, 1) << "over a seam that nobody can see";
 }
@@ -121,19 +132,19 @@ TEST(TouchingTest, BlocksFlushInARowAreFoundInPart) {
 TEST(TouchingTest, BlocksThatDoNotLieFlushAreAllFound) {
   Mesh mesh = test::meshOf({{{0.0, 0.0, 0.0}, {60.0, 40.0, 30.0}}});
   mesh.name = "staggered blocks";
-  std::vector<PlacedPart> row;
-  for (int k = 0; k < 4; ++k)
-    row.push_back(placed({}, {-30.0 + 7.0 * (k % 2), -80.0 + 40.0 * k, 3.0 * (k % 3)}));
-  const Judged judged = searched(mesh, row);
+  const Judged judged =
+      searched(mesh, rowOfFour([](int k) {
+                 return glm::dvec3(-30.0 + 7.0 * (k % 2), -80.0 + 40.0 * k, 3.0 * (k % 3));
+               }));
   EXPECT_GE(judged.right, 3);
   EXPECT_EQ(judged.wrong, 0);
 }
 
 TEST(TouchingTest, BracketsFaceToFaceAreAllFound) {
   constexpr double kWidthMm = 64.0;  // along y
-  std::vector<PlacedPart> row;
-  for (int k = 0; k < 4; ++k) row.push_back(placed({}, {0.0, kWidthMm * (k - 1.5), 0.0}));
-  const Judged judged = searched(test::modelMesh("bracket"), row);
+  const Judged judged =
+      searched(test::modelMesh("bracket"),
+               rowOfFour([](int k) { return glm::dvec3(0.0, kWidthMm * (k - 1.5), 0.0); }));
   EXPECT_GE(judged.right, 3);
   EXPECT_EQ(judged.wrong, 0);
 }
@@ -141,13 +152,14 @@ TEST(TouchingTest, BracketsFaceToFaceAreAllFound) {
 /// Only the corners of the head tell how the bolt is turned, and nothing but the head or the end
 /// face is seen.
 TEST(BoltTest, SeenEndOnFromEitherEnd) {
+  const ReferenceDatabase bolts = test::databaseOfMeshes({test::modelMesh("bolt")});
   int right = 0;
   int wrong = 0;
   for (const double turn : {0.0, 0.1, kHalfTurn, kHalfTurn + 0.1}) {
     ScannerOptions straight_down;
     straight_down.tilt_rad = 0.0;
-    const Judged judged = searched(
-        test::modelMesh("bolt"), {placed({turn, 0.0, 0.0}, {20.0, 10.0, 60.0})}, straight_down);
+    const Judged judged =
+        searched(bolts, {placed({turn, 0.0, 0.0}, {20.0, 10.0, 60.0})}, straight_down);
     right += judged.right;
     wrong += judged.wrong;
   }

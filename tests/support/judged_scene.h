@@ -1,6 +1,8 @@
 // Scenes with a known answer, and what an estimate made of them.
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <optional>
 #include <ostream>
 #include <vector>

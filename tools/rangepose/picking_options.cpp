@@ -23,9 +23,9 @@ void checkFinite(const std::vector<double>& values, const char* option) {
   }
 }
 
-PickOptions::Box boxOf(const std::vector<double>& limits) {
+Workspace boxOf(const std::vector<double>& limits) {
   checkFinite(limits, "--workspace");
-  PickOptions::Box box;
+  Workspace box;
   for (int axis = 0; axis < 3; ++axis) {
     const double low = limits.at(2 * static_cast<std::size_t>(axis));
     const double high = limits.at(2 * static_cast<std::size_t>(axis) + 1);
