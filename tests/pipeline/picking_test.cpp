@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/heap.h"
+#include "sim/scanner.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
 
@@ -207,6 +209,33 @@ TEST(PickingTest, FewPicksAreTheSurestWithinReach) {
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0));
   options.workspace = Workspace{{-10.0, -50.0, 0.0}, {100.0, 50.0, 1000.0}};
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(1));
+}
+
+/// Of a heap scanned along the approach, each part is as free as it is visible; whether those above
+/// it were found, or only measured.
+TEST(PickingTest, FreedomIsWhatIsVisibleFromTheTool) {
+  const Mesh& cube = cubes().objects[0].mesh;
+  HeapOptions heap;
+  heap.count = 10;
+  heap.seed = 5;
+  ScannerOptions scanner;
+  scanner.orthographic = true;
+  scanner.tilt_rad = 0.0;
+  const Scan scan = scanHeap({cube}, makeHeap({cube}, heap), scanner);
+  int covered = 0;
+  for (const std::size_t every : {1, 2}) {
+    std::vector<PoseEstimate> poses;
+    std::vector<double> visible;
+    for (std::size_t i = 0; i < scan.truth.size(); i += every) {
+      poses.emplace_back().pose = scan.truth[i].camera_from_object;
+      visible.push_back(scan.truth[i].visible_fraction);
+    }
+    for (const Pick& pick : pickingOrder(poses, scan.image, 0.1, std::nullopt, cubes(), {})) {
+      EXPECT_NEAR(pick.freedom, visible[pick.pose], 0.08) << pick.pose << ", every " << every;
+      covered += visible[pick.pose] < 0.8 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(covered, 3) << "or else the heap is too flat to show anything";
 }
 
 TEST(PickingTest, BadOptionsAreNamed) {
