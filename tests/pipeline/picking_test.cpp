@@ -60,6 +60,7 @@ struct Scene {
 
 std::vector<std::size_t> orderOf(const std::vector<Pick>& picks) {
   std::vector<std::size_t> order;
+  order.reserve(picks.size());
   for (const Pick& pick : picks) order.push_back(pick.pose);
   return order;
 }
