@@ -1,10 +1,7 @@
 #include "core/byte_stream.h"
 
 namespace rangepose {
-namespace {
 
-/// FNV-1a over words of eight bytes: each step is one to one, so a single damaged word always
-/// shows.
 std::uint64_t checksum(const char* data, std::size_t size) {
   std::uint64_t hash = 0xcbf29ce484222325ULL;
   const auto mix = [&hash](std::uint64_t word) {
@@ -20,8 +17,6 @@ std::uint64_t checksum(const char* data, std::size_t size) {
   for (; i < size; ++i) mix(static_cast<unsigned char>(data[i]));
   return hash;
 }
-
-}  // namespace
 
 std::vector<char> framed(const FileKind& kind, const std::vector<char>& payload) {
   ByteWriter file;

@@ -3,6 +3,7 @@
 
 #include "core/byte_stream.h"
 #include "database/reference_database.h"
+#include "geometry/surface_sample.h"
 
 namespace rangepose {
 namespace {
@@ -91,6 +92,7 @@ ReferenceObject readObject(ByteReader& in) {
   ReferenceObject object;
   object.id = in.value<std::int32_t>();
   object.mesh = readMesh(in);
+  object.thickness_mm = thickness(object.mesh);
   object.symmetries = readSymmetries(in);
   object.center_mm = in.value<glm::dvec3>();
   object.radius_mm = in.value<double>();
@@ -159,6 +161,17 @@ ReferenceDatabase readDatabase(const std::filesystem::path& path) {
   file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   if (!file) throw Error(path.string() + ": cannot read the database");
   return deserialize(bytes, path.string());
+}
+
+std::uint64_t databaseChecksum(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::uint64_t sum = 0;
+  file.seekg(sizeof kDatabase.magic + sizeof kDatabase.version);
+  file.read(reinterpret_cast<char*>(&sum), sizeof sum);
+  if (!file) {
+    throw Error(path.string() + ": cannot read the database; make one with `rangepose build`");
+  }
+  return sum;
 }
 
 }  // namespace rangepose

@@ -2,6 +2,7 @@
 // its file.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <vector>
@@ -46,5 +47,9 @@ ReferenceDatabase deserialize(const std::vector<char>& bytes, const std::string&
 
 /// Reads a database file; throws Error when it is missing or not a sound database.
 ReferenceDatabase readDatabase(const std::filesystem::path& path);
+
+/// Tells databases with different content apart: the checksum that the file itself carries. Throws
+/// Error when it is missing or too short.
+std::uint64_t databaseChecksum(const std::filesystem::path& path);
 
 }  // namespace rangepose

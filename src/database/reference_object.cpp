@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "database/reference_database.h"
+#include "geometry/surface_sample.h"
 
 namespace rangepose {
 
@@ -39,6 +40,7 @@ ReferenceObject describeObject(const Mesh& mesh,
   object.center_mm = sphere.center_mm;
   object.radius_mm = sphere.radius_mm;
   object.diameter_mm = diameter(mesh);
+  object.thickness_mm = thickness(mesh);
   object.size = size_px;
   object.edt_passes = options.edt_passes;
   object.pixel_mm = 2.0 * sphere.radius_mm / (size_px - 2.0 * kTileMarginPx);

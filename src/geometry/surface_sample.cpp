@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "core/error.h"
 
@@ -104,6 +105,18 @@ AreaMoments areaMoments(const Mesh& mesh) {
   }
   moments.axes[2] = glm::cross(moments.axes[0], moments.axes[1]);
   return moments;
+}
+
+double thickness(const Mesh& mesh) {
+  const glm::dmat3 turned = glm::transpose(areaMoments(mesh).axes);
+  glm::dvec3 low(std::numeric_limits<double>::max());
+  glm::dvec3 high(std::numeric_limits<double>::lowest());
+  for (const glm::vec3& vertex : mesh.vertices) {
+    low = glm::min(low, turned * glm::dvec3(vertex));
+    high = glm::max(high, turned * glm::dvec3(vertex));
+  }
+  const glm::dvec3 extent = high - low;
+  return std::min({extent.x, extent.y, extent.z});
 }
 
 }  // namespace rangepose

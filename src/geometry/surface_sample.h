@@ -19,4 +19,7 @@ struct AreaMoments {
 };
 AreaMoments areaMoments(const Mesh& mesh);
 
+/// The smallest extent along one of those directions [mm]: of a plate its thickness.
+double thickness(const Mesh& mesh);
+
 }  // namespace rangepose

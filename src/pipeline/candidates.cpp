@@ -125,7 +125,7 @@ RenderTask surfaceTask(const ReferenceObject& object,
 }
 
 double toleranceFor(const ReferenceObject& object, double noise_mm) {
-  return std::max(0.02 * object.diameter_mm, 3.0 * noise_mm);
+  return std::max(object.finerIfThin(0.02 * object.diameter_mm), 3.0 * noise_mm);
 }
 
 std::vector<Candidate> bestCandidates(const ReferenceObject& object,

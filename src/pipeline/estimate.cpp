@@ -8,6 +8,7 @@
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
 #include "pipeline/selection.h"
+#include "pipeline/unit_warnings.h"
 
 namespace rangepose {
 namespace {
@@ -19,11 +20,20 @@ constexpr int kMaxScenePx = 1024;
 constexpr double kTriedApart = 0.1;
 constexpr int kFruitlessPasses = 2;
 
-double largestDiameter(const ReferenceDatabase& database) {
-  double largest = 0.0;
+ForegroundOptions foregroundOptions(const ReferenceDatabase& database, double noise_mm) {
+  ForegroundOptions options;
+  options.part_mm = 0.0;
   for (const ReferenceObject& object : database.objects)
-    largest = std::max(largest, object.diameter_mm);
-  return largest;
+    options.part_mm = std::max(options.part_mm, object.diameter_mm);
+  const double coarse_mm = std::max(1.5, 0.02 * options.part_mm);
+  // A thin part must not go with the table that it lies on, as far as the noise allows.
+  const double least_mm = std::min(coarse_mm, 3.0 * noise_mm);
+  options.tolerance_mm = coarse_mm;
+  for (const ReferenceObject& object : database.objects) {
+    const double finer_mm = object.finerIfThin(coarse_mm);
+    options.tolerance_mm = std::min(options.tolerance_mm, std::max(finer_mm, least_mm));
+  }
+  return options;
 }
 
 PoseEstimate estimateOf(const Candidate& candidate) {
@@ -213,29 +223,6 @@ class Estimator {
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
 };
 
-/// A line for each object whose size in the image smells of a wrong unit.
-std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDatabase& database) {
-  std::vector<float> depths;
-  std::copy_if(
-      depth.depth_mm.begin(), depth.depth_mm.end(), std::back_inserter(depths), [](float mm) {
-        return mm > 0.0f;
-      });
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  const double spacing = depth.camera.pixelSpacingMm(static_cast<double>(*middle));
-  const double image_mm = spacing * std::max(depth.camera.width, depth.camera.height);
-  std::vector<std::string> warnings;
-  for (const ReferenceObject& object : database.objects) {
-    const double pixels = object.diameter_mm / spacing;
-    if (pixels >= 6.0 && object.diameter_mm <= 2.0 * image_mm) continue;
-    warnings.push_back(
-        "object " + object.mesh.name + " is " + std::to_string(std::lround(object.diameter_mm)) +
-        " mm wide and the image " + std::to_string(std::lround(image_mm)) +
-        " mm: check --unit of `rangepose build`, depth_scale and the unit of the cloud");
-  }
-  return warnings;
-}
-
 }  // namespace
 
 PassEffort EstimateOptions::effort(int pass) const {
@@ -291,12 +278,10 @@ Estimate estimatePoses(const DepthImage& depth,
   {
     const ScopedTimer timer(result.times, "foreground");
     const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-    ForegroundOptions foreground_options;
-    foreground_options.part_mm = largestDiameter(database);
-    foreground_options.tolerance_mm = std::max(1.5, 0.02 * foreground_options.part_mm);
+    result.noise_mm = estimateDepthNoise(depth, everything);
+    const ForegroundOptions foreground_options = foregroundOptions(database, result.noise_mm);
     result.background = findBackground(depth, foreground_options);
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
-    result.noise_mm = estimateDepthNoise(depth, everything);
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);

@@ -45,12 +45,20 @@ struct ReferenceObject {
   glm::dvec3 center_mm{0.0};  ///< centre of the bounding sphere, in the object's frame [mm]
   double radius_mm = 0.0;     ///< of that sphere [mm]
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
+  double thickness_mm = 0.0;  ///< smallest extent; 0: not known
   double pixel_mm = 0.0;      ///< width of a pixel of a view [mm]
   int size = 64;              ///< a tile is size x size pixels
   int edt_passes = 0;         ///< passes of the distance transform: EDT values reach edt_passes + 1
   std::vector<ReferenceView> views;  ///< view i lies in tile i
   Image<ReferenceTexel> atlas;       ///< tiles in rows of `columns()`
 
+  /// A tolerance [mm] made finer where the object is so thin that its faces would be confused with
+  /// each other or with the table it lies on.
+  double finerIfThin(double coarse_mm) const {
+    constexpr double kShareOfThickness = 0.3;
+    const double thin_mm = kShareOfThickness * thickness_mm;
+    return thickness_mm > 0.0 && thin_mm < coarse_mm ? thin_mm : coarse_mm;
+  }
   int columns() const { return size > 0 ? atlas.width() / size : 0; }
   /// Upper left pixel of the tile of view `index` in the atlas.
   glm::ivec2 tileOrigin(int index) const {

@@ -45,7 +45,14 @@ TEST_F(EstimateOutputTest, JsonHasAllFields) {
   EXPECT_GT(answer.at("times_ms").at("rough search").get<double>(), 0.0);
   expectFiniteNumbers(answer);
   ASSERT_FALSE(answer.at("poses").empty());
+  EXPECT_EQ(answer.at("out_of_reach"), 0);
+  int order = 0;
   for (const json& pose : answer.at("poses")) {
+    EXPECT_EQ(pose.at("order"), ++order);
+    EXPECT_GT(pose.at("freedom").get<double>(), 0.0);
+    EXPECT_LE(pose.at("freedom").get<double>(), 1.0);
+    EXPECT_LT(pose.at("height_mm").get<double>(), 0.0) << "below the camera";
+    EXPECT_EQ(pose.at("approach"), json::array({0.0, 0.0, 1.0}));
     EXPECT_EQ(pose.at("object"), "elbow");
     EXPECT_EQ(pose.at("obj_id"), 1);
     expectExactRotation(pose.at("cam_R_m2c"));

@@ -122,13 +122,16 @@ TEST_F(EstimateTest, DistanceToTheTruthSeesATurnedPose) {
   EXPECT_GT(nearestTruth(turned), 0.02 * kElbowDiameterMm);
 }
 
-TEST_F(EstimateTest, AllFindsSeveralElbowsBestFirst) {
+TEST_F(EstimateTest, AllFindsSeveralElbowsThoseToPickFirst) {
   const json poses = estimateJson({"--all"}).at("poses");
   ASSERT_GE(poses.size(), 3U);
-  double last = 1.0;
-  for (const json& pose : poses) {
-    EXPECT_LE(pose.at("score").get<double>(), last);
-    last = pose.at("score");
+  const auto step = [](const json& pose) {
+    return std::floor(10.0 * pose.at("score").get<double>() * pose.at("freedom").get<double>());
+  };
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    EXPECT_GE(step(poses.at(i - 1)), step(poses.at(i))) << "score times freedom in tenths";
+    if (step(poses.at(i - 1)) > step(poses.at(i))) continue;
+    EXPECT_GE(poses.at(i - 1).at("height_mm"), poses.at(i).at("height_mm"));
   }
   for (int i = 0; i < 3; ++i) {
     EXPECT_LT(nearestTruth(poseOf(poses.at(static_cast<std::size_t>(i)))), 0.02 * kElbowDiameterMm)
@@ -152,8 +155,10 @@ TEST_F(EstimateTest, NoPoseIsAnAnswer) {
 TEST_F(EstimateTest, TextHasAHeaderALineAPoseAndTimes) {
   const RunResult result = run(demoArguments({}));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, ContainsRegex("rank +object +score +x.mm. .* qw +qx +qy +qz\n"));
-  EXPECT_THAT(result.out, ContainsRegex("\n   1  elbow +0\\.[0-9]+( +-?[0-9.]+)+\n"));
+  EXPECT_THAT(
+      result.out,
+      ContainsRegex("order +object +score +freedom +height.mm. +x.mm. .* qw +qx +qy +qz\n"));
+  EXPECT_THAT(result.out, ContainsRegex("\n    1  elbow +0\\.[0-9]+( +-?[0-9.]+)+\n"));
   EXPECT_THAT(result.out, ContainsRegex("times .ms.:.* rough search [0-9.]+,.* total [0-9.]+\n"));
   EXPECT_EQ(result.err, "");
 }

@@ -1,13 +1,17 @@
 #include "cli/run_rangepose.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 namespace rangepose::test {
 namespace {
@@ -55,18 +59,20 @@ std::vector<std::string> environmentWith(const std::vector<std::string>& added) 
   return all;
 }
 
-}  // namespace
+/// Waits for the end of a process; returns what waitpid() says of it.
+using Wait = std::function<int(pid_t child)>;
 
-RunResult runRangepose(const std::vector<std::string>& arguments,
-                       const std::filesystem::path& folder,
-                       const std::vector<std::string>& environment) {
-  return runProgram(RP_EXECUTABLE, arguments, folder, environment);
+int waitForEnd(pid_t child) {
+  int status = 0;
+  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
+  return status;
 }
 
-RunResult runProgram(const std::string& executable,
+RunResult runAndWait(const std::string& executable,
                      const std::vector<std::string>& arguments,
                      const std::filesystem::path& folder,
-                     const std::vector<std::string>& environment) {
+                     const std::vector<std::string>& environment,
+                     const Wait& wait) {
   const Capture out;
   const Capture err;
   posix_spawn_file_actions_t actions;
@@ -87,10 +93,39 @@ RunResult runProgram(const std::string& executable,
                                   pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   if (failure != 0) throw std::runtime_error("cannot start " + executable);
-  int status = 0;
-  if (waitpid(child, &status, 0) != child) throw std::runtime_error("lost the process");
+  const int status = wait(child);
   const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   return {code, out.text(), err.text()};
+}
+
+}  // namespace
+
+RunResult runRangepose(const std::vector<std::string>& arguments,
+                       const std::filesystem::path& folder,
+                       const std::vector<std::string>& environment) {
+  return runAndWait(RP_EXECUTABLE, arguments, folder, environment, waitForEnd);
+}
+
+RunResult runProgram(const std::string& executable,
+                     const std::vector<std::string>& arguments,
+                     const std::filesystem::path& folder,
+                     const std::vector<std::string>& environment) {
+  return runAndWait(executable, arguments, folder, environment, waitForEnd);
+}
+
+RunResult runRangeposeUntil(const std::function<bool()>& condition,
+                            const std::vector<std::string>& arguments,
+                            const std::filesystem::path& folder) {
+  return runAndWait(RP_EXECUTABLE, arguments, folder, {}, [&](pid_t child) {
+    int status = 0;
+    for (;;) {
+      if (waitpid(child, &status, WNOHANG) != 0) return status;
+      if (condition()) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    kill(child, SIGKILL);
+    return waitForEnd(child);
+  });
 }
 
 }  // namespace rangepose::test

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,11 @@ RunResult runProgram(const std::string& executable,
 RunResult runRangepose(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder,
                        const std::vector<std::string>& environment = {});
+
+/// The same, killed (SIGKILL) once `condition` holds; it is asked every millisecond.
+RunResult runRangeposeUntil(const std::function<bool()>& condition,
+                            const std::vector<std::string>& arguments,
+                            const std::filesystem::path& folder);
 
 /// Lets no EGL driver be found.
 inline const std::vector<std::string> kNoEgl = {"__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"};

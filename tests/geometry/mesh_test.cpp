@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/error.h"
+#include "geometry/surface_sample.h"
 #include "support/box_mesh.h"
 #include "support/range_scenes.h"
 
@@ -146,6 +147,14 @@ TEST(MeshTest, BoundingSphereHoldsEveryVertexAndTouchesOne) {
 
 TEST(MeshTest, BoundingBoxDiagonalOfABox) {
   EXPECT_NEAR(boundingBoxDiagonal(test::meshOf({{{1, 1, 1}, {4, 5, 13}}})), 13.0, 1e-6);
+}
+
+TEST(MeshTest, ThicknessIsThatOfThePlateHoweverItIsTurned) {
+  Mesh plate = test::meshOf({{{0, 0, 0}, {80, 50, 3}}});
+  EXPECT_NEAR(thickness(plate), 3.0, 1e-4);
+  const glm::dmat3 turn = rotationFromVector({0.3, -0.8, 1.1});
+  for (glm::vec3& vertex : plate.vertices) vertex = glm::vec3(turn * glm::dvec3(vertex));
+  EXPECT_NEAR(thickness(plate), 3.0, 1e-4);
 }
 
 }  // namespace

@@ -4,12 +4,14 @@
 
 #include <chrono>
 #include <iostream>
+#include <optional>
 #include <set>
 #include <vector>
 
 #include "core/error.h"
 #include "io/bop.h"
 #include "io/depth_file.h"
+#include "rangepose/bop_journal.h"
 #include "rangepose/command.h"
 #include "rangepose/console.h"
 #include "rangepose/progress.h"
@@ -22,54 +24,81 @@ class BopRun {
   BopRun(const BopDataset& data,
          const ReferenceDatabase& database,
          const EstimateOptions& options,
-         StageSet& stages)
-      : database_(database),
+         StageSet& stages,
+         BopJournal& journal)
+      : data_(data),
+        database_(database),
         options_(options),
         stages_(stages),
-        total_(countImages(data)),
-        progress_(std::cerr, "images", total_, terminalProgress()) {}
+        journal_(journal),
+        kept_(static_cast<int>(journal.done().size())),
+        progress_(std::cerr, "images", countImages(data) - kept_, terminalProgress()) {}
 
-  void add(const BopScene& scene, const BopImage& image) {
-    try {
-      const DepthImage depth = readDepth(image.depth_path, image.camera);
-      const auto begin = std::chrono::steady_clock::now();
-      const Estimate estimate = estimatePoses(depth, image.bin, database_, options_, stages_);
-      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
-      total_time_s_ += time.count();
-      addRows(scene.scene_id, image.im_id, estimate, time.count());
-      for (const std::string& warning : estimate.warnings) warnOnce(warning);
-    } catch (const Error& error) {
-      progress_.clear();
-      printError(fmt::format("scene {} image {}: {}", scene.scene_id, image.im_id, error.what()));
-      ++failures_;
+  void all() {
+    int tried = 0;
+    for (const BopScene& scene : data_.scenes) {
+      for (const BopImage& image : scene.images) {
+        if (journal_.done().count({scene.scene_id, image.im_id}) > 0) continue;
+        if (const std::optional<DoneImage> result = estimate(scene, image)) {
+          journal_.add({scene.scene_id, image.im_id}, *result);
+        }
+        progress_.update(++tried);
+      }
     }
-    progress_.update(++done_);
   }
 
   int failures() const { return failures_; }
-  const std::vector<BopEstimate>& rows() const { return rows_; }
 
   std::string summary() const {
-    const int good = done_ - failures_;
-    return fmt::format("{} of {} images, {} poses, {:.3f} s an image on average\n",
-                       good,
-                       total_,
-                       rows_.size(),
-                       good > 0 ? total_time_s_ / good : 0.0);
+    int poses = 0;
+    double time_s = 0.0;
+    for (const auto& [key, image] : journal_.done()) {
+      poses += image.poses;
+      time_s += image.time_s;
+    }
+    const std::size_t good = journal_.done().size();
+    std::string text = fmt::format("{} of {} images, {} poses, {:.3f} s an image on average",
+                                   good,
+                                   countImages(data_),
+                                   poses,
+                                   good > 0 ? time_s / static_cast<double>(good) : 0.0);
+    if (kept_ > 0) text += fmt::format("; {} images from the run before", kept_);
+    return text + "\n";
   }
 
- private:
   static int countImages(const BopDataset& data) {
     std::size_t count = 0;
     for (const BopScene& scene : data.scenes) count += scene.images.size();
     return static_cast<int>(count);
   }
 
-  void addRows(int scene_id, int im_id, const Estimate& estimate, double time_s) {
-    for (const PoseEstimate& pose : estimate.poses) {
-      const ReferenceObject& object = database_.objects.at(static_cast<std::size_t>(pose.object));
-      rows_.push_back({scene_id, im_id, object.id, pose.confidence, pose.pose, time_s});
+ private:
+  /// Empty where the image cannot be read, which is said.
+  std::optional<DoneImage> estimate(const BopScene& scene, const BopImage& image) {
+    try {
+      const DepthImage depth = readDepth(image.depth_path, image.camera);
+      const auto begin = std::chrono::steady_clock::now();
+      const Estimate found = estimatePoses(depth, image.bin, database_, options_, stages_);
+      const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
+      for (const std::string& warning : found.warnings) warnOnce(warning);
+      return DoneImage{time.count(),
+                       static_cast<int>(found.poses.size()),
+                       rowsOf(scene.scene_id, image.im_id, found, time.count())};
+    } catch (const Error& error) {
+      progress_.clear();
+      printError(fmt::format("scene {} image {}: {}", scene.scene_id, image.im_id, error.what()));
+      ++failures_;
+      return std::nullopt;
     }
+  }
+
+  std::string rowsOf(int scene_id, int im_id, const Estimate& found, double time_s) const {
+    std::vector<BopEstimate> rows;
+    for (const PoseEstimate& pose : found.poses) {
+      const ReferenceObject& object = database_.objects.at(static_cast<std::size_t>(pose.object));
+      rows.push_back({scene_id, im_id, object.id, pose.confidence, pose.pose, time_s});
+    }
+    return bopCsv(rows).substr(bopCsv({}).size());
   }
 
   void warnOnce(const std::string& warning) {
@@ -78,21 +107,38 @@ class BopRun {
     printWarning(warning);
   }
 
+  const BopDataset& data_;
   const ReferenceDatabase& database_;
   const EstimateOptions& options_;
   StageSet& stages_;
-  int total_ = 0;
+  BopJournal& journal_;
+  int kept_ = 0;  ///< images that an earlier run has done
   Progress progress_;
-  int done_ = 0;
   int failures_ = 0;
-  double total_time_s_ = 0.0;
-  std::vector<BopEstimate> rows_;
   std::set<std::string> warnings_;
 };
+
+/// All that the rows depend on and a user may change.
+RunFacts factsOf(const BopArguments& arguments,
+                 const std::string& database_file,
+                 const EstimateOptions& options,
+                 const StageSet& stages,
+                 int images) {
+  return {{"version", RP_VERSION},
+          {"path", stages.name()},
+          {"database", fmt::format("{:016x}", databaseChecksum(database_file))},
+          {"data set", std::filesystem::weakly_canonical(arguments.folder).string()},
+          {"split", arguments.split},
+          {"images", std::to_string(images)},
+          {"--starts", std::to_string(options.starts)},
+          {"--max-poses", std::to_string(options.max_poses)},
+          {"--min-score", fmt::format("{:.9g}", options.min_score)}};
+}
 
 }  // namespace
 
 int runBop(const BopArguments& arguments,
+           const std::string& database_file,
            const ReferenceDatabase& database,
            const EstimateOptions& options,
            StageSet& stages) {
@@ -101,11 +147,12 @@ int runBop(const BopArguments& arguments,
     throw Error("BOP data set " + arguments.folder + ": has no scenes in split " + arguments.split +
                 "; name another one by --split");
   }
-  BopRun run(data, database, options, stages);
-  for (const BopScene& scene : data.scenes) {
-    for (const BopImage& image : scene.images) run.add(scene, image);
-  }
-  writeBopCsv(arguments.csv, run.rows());
+  BopJournal journal(arguments.csv,
+                     factsOf(arguments, database_file, options, stages, BopRun::countImages(data)),
+                     arguments.resume);
+  BopRun run(data, database, options, stages, journal);
+  run.all();
+  journal.finish();
   std::cout << "path " << stages.name() << ": " << run.summary();
   return run.failures() > 0 ? kFailed : kDone;
 }

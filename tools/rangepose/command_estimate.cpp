@@ -1,4 +1,5 @@
 // rangepose estimate: one depth image, one cloud or one BOP data set in, poses out.
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -17,6 +18,7 @@
 #include "rangepose/cuda_options.h"
 #include "rangepose/estimate_dump.h"
 #include "rangepose/estimate_report.h"
+#include "rangepose/picking_options.h"
 #include "rangepose/progress.h"
 #include "rangepose/scene_input.h"
 
@@ -25,12 +27,17 @@ namespace {
 
 constexpr const char* kExamples =
     R"(Poses are model to camera, in mm; rotations are written as a quaternion (text) or as nine
-numbers row by row (JSON).
+numbers row by row (JSON). They come in the order in which to pick them: by score times freedom
+(the share of a part above which nothing lies, seen along the bin's z axis, without --bin along the
+camera's axis), in steps of a tenth; in a step the highest part first. With --workspace or
+--min-freedom all parts are looked for and those out of reach left out.
 
 Examples:
   rangepose estimate --db parts.rpdb --depth depth.png --camera camera.json
   rangepose estimate --db parts.rpdb --cloud scan.pcd --all --json poses.json --overlay seen.png
   rangepose estimate --db parts.rpdb --depth d.png --camera c.json --bin bin.json --json -
+  rangepose estimate --db parts.rpdb --depth d.png --camera c.json --bin bin.json --all
+                     --approach-cone 20 --min-freedom 0.6 --workspace -200 200 -150 150 0 300
   rangepose estimate --db lm.rpdb --bop lm --split test --csv results.csv --all)";
 
 constexpr int kAllPoses = 100;
@@ -41,6 +48,7 @@ struct EstimateArguments {
   std::string path = "auto";
   CudaArguments cuda;
   EstimateOptions options;
+  PickingArguments picking;
   bool first = false;
   bool all = false;
   int max_poses = 0;  ///< 0: not given
@@ -56,8 +64,8 @@ void checkUsage(const EstimateArguments& arguments, bool split_given) {
     throw UsageError("--first, --all and --max-poses exclude each other; give one of them");
   }
   if (arguments.bop.folder.empty()) {
-    if (!arguments.bop.csv.empty() || split_given) {
-      throw UsageError("--csv and --split belong to --bop DIR; use --json for one image");
+    if (!arguments.bop.csv.empty() || split_given || arguments.bop.resume) {
+      throw UsageError("--csv, --split and --resume belong to --bop DIR; use --json for one image");
     }
     checkScene(scene);
     return;
@@ -69,6 +77,11 @@ void checkUsage(const EstimateArguments& arguments, bool split_given) {
   }
   if (!arguments.json.empty() || !arguments.overlay.empty() || !arguments.dump.empty()) {
     throw UsageError("--json, --overlay and --dump do not go with --bop; use --csv");
+  }
+  if (arguments.picking.given()) {
+    throw UsageError(
+        "--approach-cone, --min-freedom, --workspace and --arm do not go with --bop: its results "
+        "are not ordered for picking");
   }
 }
 
@@ -108,22 +121,34 @@ int estimateScene(const EstimateArguments& arguments,
     dump = std::make_unique<debug::StageDump>(arguments.dump, arguments.scene.file());
     dump->addDepth(depth);
   }
+  PickOptions picking = pickingOptions(arguments.picking);
+  EstimateOptions options = arguments.options;
+  if (arguments.picking.limited()) {
+    // What is surest may be out of reach, so that the wanted ones are chosen from all.
+    picking.max_picks = options.max_poses;
+    options.max_poses = std::max(options.max_poses, kAllPoses);
+  }
   Estimate estimate;
+  std::vector<Pick> picks;
   {
     const Progress progress(std::cerr, "estimating", 0, terminalProgress());
-    estimate =
-        estimatePoses(depth, bin, database, arguments.options, stages, dump ? &trace : nullptr);
+    estimate = estimatePoses(depth, bin, database, options, stages, dump ? &trace : nullptr);
+    const ScopedTimer timer(estimate.times, "picking order");
+    picks = pickingOrder(estimate.poses, depth, estimate.noise_mm, bin, database, picking);
   }
+  const std::size_t found = estimate.poses.size();
+  keepPicks(estimate, picks);
   if (dump) finishDump(*dump, depth, database, estimate, trace);
   report(arguments,
          depth,
          estimate,
-         {database, stages.name(), arguments.scene.file(), arguments.options.min_score});
+         {database, stages.name(), arguments.scene.file(), options.min_score, picks, found});
   return kDone;
 }
 
 int estimate(EstimateArguments arguments, bool split_given) {
   checkUsage(arguments, split_given);
+  static_cast<void>(pickingOptions(arguments.picking));  // bad values are told before the work
   if (arguments.all) arguments.options.max_poses = kAllPoses;
   if (arguments.max_poses > 0) arguments.options.max_poses = arguments.max_poses;
   checkOutputs(arguments);
@@ -131,7 +156,8 @@ int estimate(EstimateArguments arguments, bool split_given) {
   const PathStages path = openPath(parsePathRequest(arguments.path), cudaOptions(arguments.cuda));
   const ReferenceDatabase database = readDatabase(arguments.scene.database);
   if (!arguments.bop.folder.empty()) {
-    return runBop(arguments.bop, database, arguments.options, *path.stages);
+    return runBop(
+        arguments.bop, arguments.scene.database, database, arguments.options, *path.stages);
   }
   return estimateScene(arguments, database, *path.stages);
 }
@@ -150,6 +176,9 @@ void declareOutputs(CLI::App& command, EstimateArguments& arguments) {
           "--dump", arguments.dump, "Write pictures of all stages and a page to this folder")
       ->option_text("DIR");
   command.add_option("--csv", arguments.bop.csv, "Result file of --bop")->option_text("FILE");
+  command.add_flag("--resume",
+                   arguments.bop.resume,
+                   "Go on with a run over --bop that was interrupted, from FILE.partial of --csv");
 }
 
 void declareSearch(CLI::App& command, EstimateArguments& arguments) {
@@ -189,6 +218,7 @@ std::function<int()> declareEstimate(CLI::App& command) {
   const CLI::Option* split =
       command.add_option("--split", arguments->bop.split, "Of the data set")->capture_default_str();
   declareSearch(command, *arguments);
+  declarePicking(command, arguments->picking);
   declareOutputs(command, *arguments);
   return [arguments, split] { return estimate(*arguments, split->count() > 0); };
 }

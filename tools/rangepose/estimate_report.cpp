@@ -20,6 +20,12 @@ double finite(double value, const char* field) {
   return value;
 }
 
+Json vectorJson(const glm::dvec3& vector, const char* field) {
+  Json list = Json::array();
+  for (int axis = 0; axis < 3; ++axis) list.push_back(finite(vector[axis], field));
+  return list;
+}
+
 Json rotationJson(const Pose& pose) {
   Json rows = Json::array();
   for (int row = 0; row < 3; ++row) {
@@ -28,13 +34,6 @@ Json rotationJson(const Pose& pose) {
     }
   }
   return rows;
-}
-
-Json translationJson(const Pose& pose) {
-  Json list = Json::array();
-  for (int axis = 0; axis < 3; ++axis)
-    list.push_back(finite(pose.translation_mm[axis], "cam_t_m2c"));
-  return list;
 }
 
 Json checkJson(const CheckResult& check) {
@@ -54,31 +53,38 @@ const ReferenceObject& objectOf(const PoseEstimate& pose, const ReferenceDatabas
   return database.objects.at(static_cast<std::size_t>(pose.object));
 }
 
-Json poseJson(const PoseEstimate& pose, const ReferenceDatabase& database) {
-  const ReferenceObject& object = objectOf(pose, database);
-  return {{"object", object.mesh.name},
+Json poseJson(std::size_t index, const PoseEstimate& pose, const ReportContext& context) {
+  const Pick& pick = context.picks.at(index);
+  const ReferenceObject& object = objectOf(pose, context.database);
+  return {{"order", index + 1},
+          {"object", object.mesh.name},
           {"obj_id", object.id},
           {"score", finite(pose.confidence, "score")},
+          {"freedom", finite(pick.freedom, "freedom")},
+          {"height_mm", finite(pick.height_mm, "height_mm")},
+          {"approach", vectorJson(pick.approach, "approach")},
           {"cam_R_m2c", rotationJson(pose.pose)},
-          {"cam_t_m2c", translationJson(pose.pose)},
+          {"cam_t_m2c", vectorJson(pose.pose.translation_mm, "cam_t_m2c")},
           {"rough",
            {{"R", rotationJson(pose.rough)},
-            {"t", translationJson(pose.rough)},
+            {"t", vectorJson(pose.rough.translation_mm, "rough.t")},
             {"error", finite(static_cast<double>(pose.rough_error), "rough.error")},
             {"view", pose.view}}},
           {"check", checkJson(pose.check)}};
 }
 
-std::string poseLine(std::size_t rank,
-                     const PoseEstimate& pose,
-                     const ReferenceDatabase& database) {
+std::string poseLine(std::size_t index, const PoseEstimate& pose, const ReportContext& context) {
+  const Pick& pick = context.picks.at(index);
   const glm::dvec3& t = pose.pose.translation_mm;
   const std::array<double, 4> q = quaternionOf(pose.pose.rotation);
   return fmt::format(
-      "{:>4}  {:<20} {:>6.3f}  {:>9.2f} {:>9.2f} {:>9.2f}   {:>8.5f} {:>8.5f} {:>8.5f} {:>8.5f}\n",
-      rank,
-      objectOf(pose, database).mesh.name,
+      "{:>5}  {:<20} {:>6.3f} {:>7.2f} {:>10.1f}  {:>9.2f} {:>9.2f} {:>9.2f}   {:>8.5f} {:>8.5f} "
+      "{:>8.5f} {:>8.5f}\n",
+      index + 1,
+      objectOf(pose, context.database).mesh.name,
       pose.confidence,
+      pick.freedom,
+      pick.height_mm,
       t.x,
       t.y,
       t.z,
@@ -93,22 +99,27 @@ std::string poseLine(std::size_t rank,
 std::string textReport(const Estimate& estimate, const ReportContext& context) {
   std::string text;
   if (estimate.poses.empty()) {
-    text = fmt::format("no pose found with a score of at least {:g}\n", context.min_score);
+    text = context.found > 0
+               ? fmt::format("{} poses found, none of them within reach\n", context.found)
+               : fmt::format("no pose found with a score of at least {:g}\n", context.min_score);
   } else {
-    text = fmt::format("{:>4}  {:<20} {:>6}  {:>9} {:>9} {:>9}   {:>8} {:>8} {:>8} {:>8}\n",
-                       "rank",
-                       "object",
-                       "score",
-                       "x[mm]",
-                       "y[mm]",
-                       "z[mm]",
-                       "qw",
-                       "qx",
-                       "qy",
-                       "qz");
+    text = fmt::format(
+        "{:>5}  {:<20} {:>6} {:>7} {:>10}  {:>9} {:>9} {:>9}   {:>8} {:>8} {:>8} {:>8}\n",
+        "order",
+        "object",
+        "score",
+        "freedom",
+        "height[mm]",
+        "x[mm]",
+        "y[mm]",
+        "z[mm]",
+        "qw",
+        "qx",
+        "qy",
+        "qz");
   }
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
-    text += poseLine(i + 1, estimate.poses[i], context.database);
+    text += poseLine(i, estimate.poses[i], context);
   }
   double total = 0.0;
   text += "path " + context.path + ", times [ms]:";
@@ -127,11 +138,14 @@ Json timesJson(const StageTimes& times) {
 
 Json jsonReport(const Estimate& estimate, const ReportContext& context) {
   Json poses = Json::array();
-  for (const PoseEstimate& pose : estimate.poses) poses.push_back(poseJson(pose, context.database));
+  for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
+    poses.push_back(poseJson(i, estimate.poses[i], context));
+  }
   return {{"version", RP_VERSION},
           {"path", context.path},
           {"image", context.image},
           {"poses", poses},
+          {"out_of_reach", context.found - estimate.poses.size()},
           {"times_ms", timesJson(estimate.times)},
           {"noise_mm", finite(estimate.noise_mm, "noise_mm")},
           {"warnings", estimate.warnings}};

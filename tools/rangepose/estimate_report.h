@@ -7,6 +7,7 @@
 
 #include "debug/overlay.h"
 #include "pipeline/estimate.h"
+#include "pipeline/picking.h"
 
 namespace rangepose::cli {
 
@@ -15,9 +16,11 @@ struct ReportContext {
   std::string path;   ///< that the stages took, e.g. "host"
   std::string image;  ///< file of the scene
   double min_score = 0.0;
+  std::vector<Pick> picks;  ///< one a pose, in the same order
+  std::size_t found = 0;    ///< poses before those out of reach were left out
 };
 
-/// A header, a line for each pose (best first), the times.
+/// A header, a line for each pose, the times.
 std::string textReport(const Estimate& estimate, const ReportContext& context);
 
 /// All numbers in full precision. Throws Error rather than writing one that is not finite.
