@@ -5,12 +5,16 @@
 
 namespace rangepose {
 
+// Weights of a logistic regression on checked poses of simulated bins: the parts of models/ and of
+// models/tuning, boxes, slabs, rods and trays, alone and in heaps, with sensor and rough noise, and
+// each searched for among the others. The outline counts for more where much of it can be seen: a
+// face alone can be laid on any face, and its outline is what tells.
 double logOddsOf(const CheckResult& check, double visible_share) {
-  // Where nothing of the outline can be seen it says nothing.
   const double seen = 1.0 - check.outline_covered;
   const double ends = seen > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / seen : 0.5;
-  return -33.7 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
-         10.4 * ends + 3.7 * std::log(visible_share + 0.02) -
+  return -34.1 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
+         10.4 * ends + 10.0 * (ends - 0.8) * seen +
+         3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
          8.0 * std::max(0.0, check.hidden - 0.4);
 }
 

@@ -30,7 +30,7 @@ struct EstimateOptions {
   int starts = 0;          ///< start points of a pass
   int kept_per_start = 0;  ///< see PassEffort
   int verified = 0;        ///< likewise, of each start
-  double min_score = 0.7;  ///< poses below are not reported
+  double min_score = 0.5;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
   /// Of the passes 0, 1, ...
