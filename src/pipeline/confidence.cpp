@@ -5,17 +5,20 @@
 
 namespace rangepose {
 
-// Weights of a logistic regression on checked poses of simulated bins: the parts of models/ and of
-// models/tuning, boxes, slabs, rods and trays, alone and in heaps, with sensor and rough noise, and
-// each searched for among the others. The outline counts for more where much of it can be seen: a
-// face alone can be laid on any face, and its outline is what tells.
+// The weights follow logistic regressions on checked poses of simulated bins: the parts of models/
+// and of models/tuning, boxes, slabs, rods and trays, alone and in heaps, with sensor and rough
+// noise, and each searched for among the others. What such bins hardly show is set so that it does
+// no harm there: the outline counts for more where much of it can be seen, for a face alone can be
+// laid on any face, and poses of which little is seen count for less.
 double logOddsOf(const CheckResult& check, double visible_share) {
   const double seen = 1.0 - check.outline_covered;
   const double ends = seen > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / seen : 0.5;
-  return -34.1 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
+  // Of what is mostly hidden or not measured, the rest fits many things.
+  const double unseen = check.hidden + check.missing;
+  return -33.6 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
          10.4 * ends + 10.0 * (ends - 0.8) * seen +
          3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
-         8.0 * std::max(0.0, check.hidden - 0.4);
+         8.0 * std::max(0.0, unseen - 0.4) - 20.0 * std::max(0.0, unseen - 0.55);
 }
 
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }

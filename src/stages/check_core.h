@@ -23,14 +23,15 @@ struct CheckOptions {
 
 /// Shares of the model's visible surface (of its rendered pixels); the first six add up to 1.
 struct CheckResult {
-  double explained = 0.0;      ///< agrees with the data in depth and slope
-  double contradicted = 0.0;   ///< in front of the data: the sensor saw through it
-  double hidden = 0.0;         ///< well behind nearer data: something lies on it
-  double buried = 0.0;         ///< just behind nearer data: the data's surface is not the model's
-  double missing = 0.0;        ///< no measurement there
-  double weak = 0.0;           ///< near the data, but less than explained
-  double outline = 0.0;        ///< share of the outline where the data ends with the model, 0..1
-  double outline_covered = 0.0;  ///< share of the outline that nearer data covers: counts half
+  double explained = 0.0;        ///< agrees with the data in depth and slope
+  double contradicted = 0.0;     ///< in front of the data: the sensor saw through it
+  double hidden = 0.0;           ///< well behind nearer data: something lies on it
+  double buried = 0.0;           ///< just behind nearer data: the data's surface is not the model's
+  double missing = 0.0;          ///< no measurement there
+  double weak = 0.0;             ///< near the data, but less than explained
+  double outline = 0.0;          ///< share of the outline where the data ends with the model, 0..1
+  double outline_covered = 0.0;  ///< share of the outline of which nothing can be said: covered, or
+                                 ///< no measurement; counts half
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
   int pixels = 0;              ///< rendered pixels
@@ -159,8 +160,8 @@ RP_HD void judgeBorder(const Depth& surface_depth,
   constexpr int kOut = 2;
   const double model = static_cast<double>(surface_depth(x, y));
   const double inside = measured.at(window.x0 + x * window.step, window.y0 + y * window.step);
-  // Behind nearer data and outside of the image nothing can be said: that counts half.
-  const bool covered = inside != 0.0 && inside < model - options.tolerance_mm;
+  // Behind nearer data, over holes and outside of the image nothing can be said: that counts half.
+  const bool covered = inside < model - options.tolerance_mm;
   for (int direction = 0; direction < 4; ++direction) {
     const int dx = direction == 0 ? 1 : direction == 1 ? -1 : 0;
     const int dy = direction == 2 ? 1 : direction == 3 ? -1 : 0;

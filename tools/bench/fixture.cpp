@@ -8,6 +8,9 @@
 #include "io/camera_file.h"
 #include "io/depth_file.h"
 #include "io/mesh_file.h"
+#include "sim/drop.h"
+#include "sim/heap.h"
+#include "sim/physics_part.h"
 #include "sim/scanner.h"
 #include "stages/reference_host.h"
 
@@ -93,6 +96,18 @@ const DepthImage& Fixture::heap() {
         scanHeap(meshes, makeHeap(meshes, heap_options), scanner).image);
   }
   return *heap_;
+}
+
+const Fixture::Bin& Fixture::bin() {
+  if (!bin_) {
+    const std::vector<Mesh> meshes = {mesh()};
+    DropOptions drop;
+    drop.seed = 7;
+    const DroppedBin dropped = dropParts({physicsPart(meshes.front())}, {25}, drop);
+    const Scan scan = scanBin(meshes, dropped.parts, dropped.bin, {});
+    bin_ = std::make_unique<Bin>(Bin{scan.image, binBox(dropped.bin, scan.camera_from_world)});
+  }
+  return *bin_;
 }
 
 const EstimateTrace& Fixture::trace(int count) {

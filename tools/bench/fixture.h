@@ -42,6 +42,12 @@ class Fixture {
   const DepthImage& demo();
   /// A generated heap, 848x480.
   const DepthImage& heap();
+  /// A bin of 25 elbows that fell into it, 640x480.
+  struct Bin {
+    DepthImage image;
+    BinBox box;
+  };
+  const Bin& bin();
   /// The demo image as the host path takes it, with the database of so many views.
   const EstimateTrace& trace(int views);
   double noiseMm();
@@ -60,6 +66,7 @@ class Fixture {
   std::unique_ptr<Mesh> mesh_;
   std::unique_ptr<DepthImage> demo_;
   std::unique_ptr<DepthImage> heap_;
+  std::unique_ptr<Bin> bin_;
   std::vector<std::unique_ptr<Views>> views_;
 };
 

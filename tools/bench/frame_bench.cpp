@@ -1,5 +1,6 @@
 // Whole frames: depth image in, pose out, with the database in memory.
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "bench/fixture.h"
@@ -52,13 +53,34 @@ void addFrame(Fixture& fixture,
   });
 }
 
+void addAllParts(Fixture& fixture, const Path& path, int views) {
+  const std::string name = "BM_AllParts/" + path.name + "/640x480/views:" + std::to_string(views);
+  add(name, [&fixture, path, views](benchmark::State& state) {
+    const Fixture::Bin& bin = fixture.bin();
+    const ReferenceDatabase& database = fixture.database(views);
+    EstimateOptions options;
+    options.max_poses = 100;
+    Estimate estimate = estimatePoses(bin.image, bin.box, database, options, *path.stages);
+    std::map<std::string, double> ms;
+    for (auto _ : state) {
+      estimate = estimatePoses(bin.image, bin.box, database, options, *path.stages);
+      for (const StageTime& time : estimate.times) ms[time.stage] += time.ms;
+    }
+    for (const auto& [stage, sum] : ms)
+      state.counters[stage + "_ms"] = benchmark::Counter(sum, benchmark::Counter::kAvgIterations);
+    state.counters["poses"] = static_cast<double>(estimate.poses.size());
+  });
+}
+
 }  // namespace
 
 void registerFrameBenchmarks(Fixture& fixture) {
   for (const Path& path : fixture.paths()) {
     const int views = path.software ? 64 : 1024;
     addFrame(fixture, path, "640x480", &Fixture::demo, views);
-    if (!path.software) addFrame(fixture, path, "848x480", &Fixture::heap, views);
+    if (path.software) continue;
+    addFrame(fixture, path, "848x480", &Fixture::heap, views);
+    addAllParts(fixture, path, views);
   }
 }
 

@@ -191,14 +191,14 @@ void declareSearch(CLI::App& command, EstimateArguments& arguments) {
       .add_option("--starts",
                   arguments.options.starts,
                   "Start points of the search, of each pass where several poses are wanted "
-                  "[3 for one pose, 12 for several]")
+                  "[3 for one pose; for several 40 of the first pass, 12 of those after it]")
       ->check(CLI::Range(1, 1000));
   command.add_flag("--first", arguments.first, "The best pose only (default)");
   command.add_flag(
       "--all", arguments.all, "All visible parts, at most " + std::to_string(kAllPoses));
   command.add_option("--max-poses", arguments.max_poses, "At most so many poses")
       ->check(CLI::Range(1, 10000));
-  command.add_option("--min-score", arguments.options.min_score, "Poses below are not reported")
+  command.add_option("--min-score", arguments.options.min_score, "Poses less likely to be right are not reported")
       ->check(shareValidator())
       ->capture_default_str();
   command
