@@ -17,8 +17,8 @@ double logOddsOf(const CheckResult& check, double visible_share) {
   const double unseen = check.hidden + check.missing;
   return -33.6 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
          10.4 * ends + 10.0 * (ends - 0.8) * seen +
-         3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
-         8.0 * std::max(0.0, unseen - 0.4) - 20.0 * std::max(0.0, unseen - 0.55);
+         3.7 * std::log(std::min(visible_share, 1.0) + 0.02) - 8.0 * std::max(0.0, unseen - 0.4) -
+         40.0 * std::max(0.0, unseen - 0.55);
 }
 
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }

@@ -32,10 +32,10 @@ struct CheckResult {
   double outline = 0.0;          ///< share of the outline where the data ends with the model, 0..1
   double outline_covered = 0.0;  ///< share of the outline of which nothing can be said: covered, or
                                  ///< no measurement; counts half
-  double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
-  double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
-  int pixels = 0;              ///< rendered pixels
-  double score = 0.0;          ///< 0..1, higher is better
+  double residual_mm = 0.0;      ///< mean absolute depth difference of the explained surface [mm]
+  double explained_mm2 = 0.0;    ///< explained surface as the camera sees it [mm^2]
+  int pixels = 0;                ///< rendered pixels
+  double score = 0.0;            ///< 0..1, higher is better
 };
 
 /// Reads the measured surface at camera pixels: `read(u, v)` gives the depth [mm] of a pixel inside
