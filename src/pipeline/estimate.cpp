@@ -302,7 +302,7 @@ Estimate estimatePoses(const DepthImage& depth,
     selection.add(pass.checked);
     const std::size_t before = chosen.size();
     chosen = selection.choose();
-    if (pass.starts == 0) break;
+    if (pass.starts == 0 || static_cast<int>(chosen.size()) >= options.max_poses) break;
     rest = foreground;
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;

@@ -112,6 +112,10 @@ std::vector<Candidate> Selection::choose() const {
     candidates.push_back(entry->candidate);
     candidates.back().confidence = confidence;
   }
+  std::stable_sort(
+      candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+        return a.confidence > b.confidence;
+      });
   return candidates;
 }
 

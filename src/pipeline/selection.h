@@ -29,7 +29,7 @@ class Selection {
   /// The surest pose, then the surest of those that share little of what they explain with one
   /// before, and so on. The confidence of each is its share of the odds of all poses of its object
   /// that explain the same surface: where two are as good as each other, neither is sure. Only
-  /// those whose confidence is large enough.
+  /// those whose confidence is large enough, the surest first.
   std::vector<Candidate> choose() const;
   /// Takes what poses explain, with or without rivals, out of the mask of pixels.
   void takeOut(Image<std::uint8_t>& mask) const;
