@@ -28,6 +28,13 @@ std::vector<char> framed(const FileKind& kind, const std::vector<char>& payload)
   return file.take();
 }
 
+std::optional<std::uint64_t> statedChecksum(std::istream& file) {
+  file.seekg(sizeof FileKind::magic + sizeof FileKind::version);
+  std::uint64_t sum = 0;
+  if (!file.read(reinterpret_cast<char*>(&sum), sizeof sum)) return std::nullopt;
+  return sum;
+}
+
 ByteReader payloadOf(const FileKind& kind,
                      const std::vector<char>& bytes,
                      const std::string& where) {

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <istream>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -100,6 +102,9 @@ std::uint64_t checksum(const char* data, std::size_t size);
 
 /// A whole file: magic, version, checksum of the payload, its size, the payload.
 std::vector<char> framed(const FileKind& kind, const std::vector<char>& payload);
+
+/// The checksum that the beginning of such a file states; nothing where the file is too short.
+std::optional<std::uint64_t> statedChecksum(std::istream& file);
 
 /// The payload of a file that `framed` made; `bytes` must outlive the reader. Throws Error, naming
 /// `where`, for another type or version, and for a truncated or damaged file.

@@ -165,13 +165,9 @@ ReferenceDatabase readDatabase(const std::filesystem::path& path) {
 
 std::uint64_t databaseChecksum(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::uint64_t sum = 0;
-  file.seekg(sizeof kDatabase.magic + sizeof kDatabase.version);
-  file.read(reinterpret_cast<char*>(&sum), sizeof sum);
-  if (!file) {
-    throw Error(path.string() + ": cannot read the database; make one with `rangepose build`");
-  }
-  return sum;
+  const std::optional<std::uint64_t> sum = statedChecksum(file);
+  if (sum) return *sum;
+  throw Error(path.string() + ": cannot read the database; make one with `rangepose build`");
 }
 
 }  // namespace rangepose

@@ -8,17 +8,6 @@
 namespace rangepose::test {
 namespace fs = std::filesystem;
 
-CliTest::CliTest() {
-  std::string name = (fs::temp_directory_path() / "rangepose_cli_XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("no temporary folder");
-  folder_ = name;
-}
-
-CliTest::~CliTest() {
-  std::error_code ignored;
-  fs::remove_all(folder_, ignored);
-}
-
 std::string CliTest::smallDatabase() const {
   const RunResult built = run({"build",
                                (kModels / "bolt.ply").string(),
@@ -35,7 +24,7 @@ std::string CliTest::smallDatabase() const {
 }
 
 std::string CliTest::elbowDatabase() const {
-  if (fs::exists(folder_ / "elbow.rpdb")) return "elbow.rpdb";
+  if (fs::exists(folder() / "elbow.rpdb")) return "elbow.rpdb";
   const RunResult built = run({"build",
                                (kModels / "elbow.ply").string(),
                                "-o",
@@ -48,17 +37,10 @@ std::string CliTest::elbowDatabase() const {
   return "elbow.rpdb";
 }
 
-fs::path CliTest::write(const std::string& name, const std::string& bytes) const {
-  fs::path path = folder_ / name;
-  fs::create_directories(path.parent_path());
-  std::ofstream(path, std::ios::binary) << bytes;
-  return path;
-}
-
 std::set<std::string> CliTest::files() const {
   std::set<std::string> names;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder_)) {
-    if (!entry.is_directory()) names.insert(fs::relative(entry.path(), folder_).string());
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder())) {
+    if (!entry.is_directory()) names.insert(fs::relative(entry.path(), folder()).string());
   }
   return names;
 }

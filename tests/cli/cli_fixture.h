@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cli/run_rangepose.h"
+#include "support/temp_folder.h"
 
 namespace rangepose::test {
 
@@ -17,12 +18,9 @@ inline const std::filesystem::path kModels = RP_MODELS_DIR;
 
 class CliTest : public ::testing::Test {
  protected:
-  CliTest();
-  ~CliTest() override;
-
   RunResult run(const std::vector<std::string>& arguments,
                 const std::vector<std::string>& environment = {}) const {
-    return runRangepose(arguments, folder_, environment);
+    return runRangepose(arguments, folder(), environment);
   }
 
   /// A database of the bolt with few and small views; for what needs any database.
@@ -30,17 +28,19 @@ class CliTest : public ::testing::Test {
   /// A database that finds the elbows of the demo; made once for each test.
   std::string elbowDatabase() const;
 
-  std::filesystem::path write(const std::string& name, const std::string& bytes) const;
+  std::filesystem::path write(const std::string& name, const std::string& bytes) const {
+    return folder_.write(name, bytes);
+  }
   /// Paths of all files in the folder, relative to it.
   std::set<std::string> files() const;
 
   /// --db elbow, --depth and --camera of the demo, and `more`.
   std::vector<std::string> demoArguments(const std::vector<std::string>& more) const;
 
-  const std::filesystem::path& folder() const { return folder_; }
+  const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:
-  std::filesystem::path folder_;
+  TempFolder folder_;
 };
 
 std::string readText(const std::filesystem::path& path);

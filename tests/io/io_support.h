@@ -8,23 +8,9 @@
 #include <string>
 #include <string_view>
 
+#include "support/temp_folder.h"
+
 namespace rangepose::test {
-
-/// A fresh folder that is removed with everything in it.
-class TempFolder {
- public:
-  TempFolder();
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  ~TempFolder();
-
-  const std::filesystem::path& path() const { return path_; }
-  /// Writes a file (and the folders above it) and returns its path.
-  std::filesystem::path write(const std::string& name, std::string_view bytes) const;
-
- private:
-  std::filesystem::path path_;
-};
 
 std::string bytesOf(const std::filesystem::path& path);
 

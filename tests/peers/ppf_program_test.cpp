@@ -1,11 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
 #include "cli/run_rangepose.h"
+#include "support/temp_folder.h"
 
 namespace rangepose::test {
 namespace {
@@ -23,18 +23,13 @@ class PpfProgramTest : public ::testing::Test {
       GTEST_SKIP() << "rangepose_ppf is not built: OpenCV has no surface_matching here; install "
                       "libopencv-contrib-dev";
     }
-    folder_ = fs::temp_directory_path() / ("rangepose_peers_" + std::to_string(getpid()));
-    fs::create_directories(folder_);
   }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
-  }
-  const fs::path& folder() const { return folder_; }
+  const fs::path& folder() const { return folder_.path(); }
   RunResult rangepose(const std::vector<std::string>& arguments) const {
-    return runRangepose(arguments, folder_);
+    return runRangepose(arguments, folder());
   }
   RunResult ppf(const std::vector<std::string>& arguments) const {
-    return runProgram(kPpf, arguments, folder_);
+    return runProgram(kPpf, arguments, folder());
   }
   /// A bin with nothing but one crank, and a database of it.
   void makeBin() const {
@@ -57,7 +52,7 @@ class PpfProgramTest : public ::testing::Test {
   }
 
  private:
-  fs::path folder_;
+  TempFolder folder_;
 };
 
 TEST_F(PpfProgramTest, FindsALonePartAndItsResultsCanBeEvaluated) {

@@ -159,19 +159,22 @@ TEST(PickingTest, CoveredPartsAreLeftOut) {
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(1, 0));
 }
 
-TEST(PickingTest, OfEquallyGoodPartsTheHighestIsFirst) {
+/// From left to right higher and less sure.
+Scene threeInARow() {
   Scene scene;
   scene.add({-80.0, 0.0, 580.0}, 0.97);
   scene.add({0.0, 0.0, 560.0}, 0.93);
   scene.add({80.0, 0.0, 540.0}, 0.75);
+  return scene;
+}
+
+TEST(PickingTest, OfEquallyGoodPartsTheHighestIsFirst) {
+  const Scene scene = threeInARow();
   EXPECT_THAT(orderOf(scene.picks()), ElementsAre(1, 0, 2)) << "0.75 is another step";
 }
 
 TEST(PickingTest, PartsNearTheArmAreFirst) {
-  Scene scene;
-  scene.add({-80.0, 0.0, 580.0}, 0.97);
-  scene.add({0.0, 0.0, 560.0}, 0.93);
-  scene.add({80.0, 0.0, 540.0}, 0.75);
+  const Scene scene = threeInARow();
   PickOptions options;
   options.arm_mm = glm::dvec3(-500.0, 0.0, 500.0);
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0, 1, 2));
@@ -201,10 +204,7 @@ TEST(PickingTest, PartOutOfReachCoversNevertheless) {
 }
 
 TEST(PickingTest, FewPicksAreTheSurestWithinReach) {
-  Scene scene;
-  scene.add({-80.0, 0.0, 580.0}, 0.97);
-  scene.add({0.0, 0.0, 560.0}, 0.93);
-  scene.add({80.0, 0.0, 540.0}, 0.75);
+  const Scene scene = threeInARow();
   PickOptions options;
   options.max_picks = 1;
   EXPECT_THAT(orderOf(scene.picks(options)), ElementsAre(0));
