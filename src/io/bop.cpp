@@ -129,6 +129,12 @@ fs::path findModels(const fs::path& dir) {
 
 }  // namespace
 
+int imageCount(const BopDataset& dataset) {
+  std::size_t count = 0;
+  for (const BopScene& scene : dataset.scenes) count += scene.images.size();
+  return static_cast<int>(count);
+}
+
 BopDataset openBop(const fs::path& dir, const std::string& split) {
   if (!isFolder(dir)) throw Error(fmt::format("BOP data {}: no such folder", dir.string()));
   BopDataset dataset;
@@ -150,12 +156,8 @@ BopDataset openBop(const fs::path& dir, const std::string& split) {
       targets[{target.scene_id, target.im_id}].push_back(target);
     }
   }
-  std::size_t images = 0;
-  for (BopScene& scene : dataset.scenes) {
-    readImages(scene, listed ? &targets : nullptr);
-    images += scene.images.size();
-  }
-  if (images == 0 && dataset.models.empty()) {
+  for (BopScene& scene : dataset.scenes) readImages(scene, listed ? &targets : nullptr);
+  if (imageCount(dataset) == 0 && dataset.models.empty()) {
     throw Error(
         fmt::format("BOP data {}: neither models/obj_*.ply nor depth images in {}/NNNNNN; "
                     "check folder and split",

@@ -69,6 +69,9 @@ struct BopDataset {
 /// and for damaged files.
 BopDataset openBop(const std::filesystem::path& dir, const std::string& split = "test");
 
+/// Of all its scenes.
+int imageCount(const BopDataset& dataset);
+
 /// obj_NNNNNN.ply of a folder with the entries of its models_info.json, by id.
 std::vector<BopModel> readBopModels(const std::filesystem::path& folder);
 

@@ -32,7 +32,7 @@ class BopRun {
         stages_(stages),
         journal_(journal),
         kept_(static_cast<int>(journal.done().size())),
-        progress_(std::cerr, "images", countImages(data) - kept_, terminalProgress()) {}
+        progress_(std::cerr, "images", imageCount(data) - kept_, terminalProgress()) {}
 
   void all() {
     int tried = 0;
@@ -59,17 +59,11 @@ class BopRun {
     const std::size_t good = journal_.done().size();
     std::string text = fmt::format("{} of {} images, {} poses, {:.3f} s an image on average",
                                    good,
-                                   countImages(data_),
+                                   imageCount(data_),
                                    poses,
                                    good > 0 ? time_s / static_cast<double>(good) : 0.0);
     if (kept_ > 0) text += fmt::format("; {} images from the run before", kept_);
     return text + "\n";
-  }
-
-  static int countImages(const BopDataset& data) {
-    std::size_t count = 0;
-    for (const BopScene& scene : data.scenes) count += scene.images.size();
-    return static_cast<int>(count);
   }
 
  private:
@@ -148,7 +142,7 @@ int runBop(const BopArguments& arguments,
                 "; name another one by --split");
   }
   BopJournal journal(arguments.csv,
-                     factsOf(arguments, database_file, options, stages, BopRun::countImages(data)),
+                     factsOf(arguments, database_file, options, stages, imageCount(data)),
                      arguments.resume);
   BopRun run(data, database, options, stages, journal);
   run.all();

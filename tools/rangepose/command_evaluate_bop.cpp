@@ -19,9 +19,7 @@ GradedResults grade(const EvaluateBopArguments& arguments) {
     throw Error("BOP data set " + arguments.folder + ": has no scenes in split " + arguments.split +
                 "; name another one by --split");
   }
-  std::size_t images = 0;
-  for (const BopScene& scene : data.scenes) images += scene.images.size();
-  Progress progress(std::cerr, "images", static_cast<int>(images), terminalProgress());
+  Progress progress(std::cerr, "images", imageCount(data), terminalProgress());
   return gradeBop(data, rows, {}, [&progress](int done, int) { progress.update(done); });
 }
 
