@@ -26,16 +26,14 @@ ViewPoints fewPointsOfViews(const ReferenceObject& object) {
   return points;
 }
 
-/// Judges rough poses by a few points of their views against the depth image, with a tolerance as
-/// wide as a rough pose is wrong. Unlike Eq. 1 it sees the difference between surface that is
-/// hidden and surface that is not there, which decides on parts that are partly covered.
+/// Judges rough poses by a few points of their views against the depth image. Unlike Eq. 1 it sees
+/// the difference between surface that is hidden and surface that is not there, which decides on
+/// parts that are partly covered.
 void judgeRoughly(std::vector<Candidate>& candidates,
                   const ReferenceObject& object,
                   const ViewPoints& points,
                   const RefineScene& scene) {
-  CheckOptions options;
-  options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * scene.noise_mm);
-  options.max_tilt_rad = 1.2;
+  const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
   std::vector<JudgeTask> tasks;
   for (const Candidate& candidate : candidates) {
     const auto view = static_cast<std::size_t>(candidate.view);
@@ -105,6 +103,13 @@ void setConfidence(Candidate& candidate, const CheckResult& check, double mean_v
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
   CheckOptions options;
   options.tolerance_mm = toleranceFor(object, noise_mm);
+  return options;
+}
+
+CheckOptions glanceOptionsFor(const ReferenceObject& object, double noise_mm) {
+  CheckOptions options;
+  options.tolerance_mm = std::max(0.05 * object.diameter_mm, 3.0 * noise_mm);
+  options.max_tilt_rad = 1.2;
   return options;
 }
 

@@ -7,6 +7,8 @@ namespace rangepose {
 
 /// The check of a pose of the object in an image with that depth noise [mm].
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm);
+/// The check of a pose before its alignment, with a tolerance as wide as such a pose is wrong.
+CheckOptions glanceOptionsFor(const ReferenceObject& object, double noise_mm);
 /// What the camera would see of the posed object, to be judged, or aligned once the task says how.
 RenderTask surfaceTask(const ReferenceObject& object,
                        const Pose& camera_from_object,

@@ -20,22 +20,6 @@ constexpr int kMaxScenePx = 1024;
 constexpr double kTriedApart = 0.1;
 constexpr int kFruitlessPasses = 2;
 
-ForegroundOptions foregroundOptions(const ReferenceDatabase& database, double noise_mm) {
-  ForegroundOptions options;
-  options.part_mm = 0.0;
-  for (const ReferenceObject& object : database.objects)
-    options.part_mm = std::max(options.part_mm, object.diameter_mm);
-  const double coarse_mm = std::max(1.5, 0.02 * options.part_mm);
-  // A thin part must not go with the table that it lies on, as far as the noise allows.
-  const double least_mm = std::min(coarse_mm, 3.0 * noise_mm);
-  options.tolerance_mm = coarse_mm;
-  for (const ReferenceObject& object : database.objects) {
-    const double finer_mm = object.finerIfThin(coarse_mm);
-    options.tolerance_mm = std::min(options.tolerance_mm, std::max(finer_mm, least_mm));
-  }
-  return options;
-}
-
 PoseEstimate estimateOf(const Candidate& candidate) {
   return {candidate.object,
           candidate.rough,
@@ -279,7 +263,7 @@ Estimate estimatePoses(const DepthImage& depth,
     const ScopedTimer timer(result.times, "foreground");
     const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
     result.noise_mm = estimateDepthNoise(depth, everything);
-    const ForegroundOptions foreground_options = foregroundOptions(database, result.noise_mm);
+    const ForegroundOptions foreground_options = foregroundOptionsFor(database, result.noise_mm);
     result.background = findBackground(depth, foreground_options);
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
   }

@@ -186,6 +186,22 @@ BackgroundPlane bestPlane(const Samples& samples,
 
 }  // namespace
 
+ForegroundOptions foregroundOptionsFor(const ReferenceDatabase& database, double noise_mm) {
+  ForegroundOptions options;
+  options.part_mm = 0.0;
+  for (const ReferenceObject& object : database.objects)
+    options.part_mm = std::max(options.part_mm, object.diameter_mm);
+  const double coarse_mm = std::max(1.5, 0.02 * options.part_mm);
+  // A thin part must not go with the table that it lies on, as far as the noise allows.
+  const double least_mm = std::min(coarse_mm, 3.0 * noise_mm);
+  options.tolerance_mm = coarse_mm;
+  for (const ReferenceObject& object : database.objects) {
+    const double finer_mm = object.finerIfThin(coarse_mm);
+    options.tolerance_mm = std::min(options.tolerance_mm, std::max(finer_mm, least_mm));
+  }
+  return options;
+}
+
 std::vector<BackgroundPlane> findBackground(const DepthImage& image,
                                             const ForegroundOptions& options) {
   Samples rest = sampled(image, options.part_mm);

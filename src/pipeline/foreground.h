@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "database/reference_database.h"
 
 namespace rangepose {
 
@@ -19,6 +20,9 @@ struct ForegroundOptions {
   double min_above = 0.001;  ///< share that must stand out of each by three tolerances
   int max_planes = 6;        ///< a floor, four walls, and a table around the bin
 };
+
+/// For parts of the database in an image with that depth noise [mm].
+ForegroundOptions foregroundOptionsFor(const ReferenceDatabase& database, double noise_mm);
 
 /// Points p with normal * p = offset_mm, in the camera frame; the normal points to the camera's
 /// side.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "pipeline/explained_pixels.h"
 #include "pipeline/refine.h"
 #include "stages/resample_host.h"
 
@@ -77,11 +78,6 @@ struct NearestParts {
   }
 };
 
-/// Surfaces of the part and of the data closer than this along its normal are the same [mm].
-double sameSurfaceMm(const ReferenceObject& object, double noise_mm) {
-  return 2.0 * toleranceFor(object, noise_mm);
-}
-
 }  // namespace
 
 FoundScene::FoundScene(const std::vector<PoseEstimate>& poses,
@@ -95,12 +91,11 @@ FoundScene::FoundScene(const std::vector<PoseEstimate>& poses,
       unexplained_(depth.depth_mm.width(), depth.depth_mm.height(), 1) {
   for (const PoseEstimate& pose : poses_) {
     const ReferenceObject& object = objectOf(pose);
-    const double same_mm = sameSurfaceMm(object, noise_mm_);
-    forEachTexel(viewOf(object, depth_.camera, pose.pose),
-                 [&](int x, int y, const SurfaceTexel& texel) {
-                   const float gap = std::abs(texel.w - depth_.depth_mm.at(x, y));
-                   if (static_cast<double>(gap) < same_mm) unexplained_.at(x, y) = 0;
-                 });
+    const PartView view = viewOf(object, depth_.camera, pose.pose);
+    const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
+    for (const std::int32_t at : explainedPixels(view.surface, view.window, depth_, same_mm)) {
+      unexplained_.data()[at] = 0;
+    }
     reach_mm_ = std::max(reach_mm_, glm::length(pose.pose * object.center_mm) + object.radius_mm);
   }
   for (int y = 0; y < depth_.depth_mm.height(); ++y) {
@@ -154,7 +149,7 @@ std::vector<double> FoundScene::freedom(const glm::dvec3& direction) const {
   const Image<float> measured_px = host::resample(depth_, unexplained_, ortho);
   std::vector<double> shares;
   for (std::size_t i = 0; i < poses_.size(); ++i) {
-    const double same_mm = sameSurfaceMm(objectOf(poses_[i]), noise_mm_);
+    const double same_mm = sameSurfaceMm(toleranceFor(objectOf(poses_[i]), noise_mm_));
     int all = 0;
     int free = 0;
     forEachTexel(views[i], [&](int x, int y, const SurfaceTexel& texel) {

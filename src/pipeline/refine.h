@@ -57,9 +57,9 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
 
 /// How much is done for a checked pose.
 struct FineEffort {
-  int rounds = 2;     ///< of rendering and alignment before the finalists are chosen
-  int points = 900;   ///< of a surface in these rounds
-  int finalists = 3;  ///< of each start, that are aligned until they rest
+  int rounds;     ///< of rendering and alignment before the finalists are chosen
+  int points;     ///< of a surface in these rounds
+  int finalists;  ///< of each start, that are aligned until they rest
 };
 
 /// Renders the candidates at the sensor's resolution, aligns the visible part, and checks the

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "pipeline/explained_pixels.h"
+
 namespace rangepose {
 namespace {
 
@@ -58,17 +60,8 @@ std::vector<std::int32_t> Selection::explainedPixels(const Candidate& candidate)
       windowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, all);
   const Image<SurfaceTexel> surface =
       stages_.renderSurface(object.mesh, depth_.camera, candidate.pose, window);
-  const double tolerance = 2.0 * toleranceFor(object, noise_mm_);
-  std::vector<std::int32_t> pixels;
-  for (int y = 0; y < surface.height(); ++y) {
-    for (int x = 0; x < surface.width(); ++x) {
-      const double model = static_cast<double>(surface.at(x, y).w);
-      const double seen = static_cast<double>(depth_.depth_mm.at(window.x0 + x, window.y0 + y));
-      if (!(model > 0.0 && std::abs(model - seen) < tolerance)) continue;
-      pixels.push_back((window.y0 + y) * depth_.camera.width + window.x0 + x);
-    }
-  }
-  return pixels;
+  const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
+  return rangepose::explainedPixels(surface, window, depth_, same_mm);
 }
 
 std::vector<const Selection::Entry*> Selection::chosen() const {
