@@ -59,16 +59,10 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
       ->capture_default_str();
 }
 
-std::size_t countImages(const BopDataset& data) {
-  std::size_t count = 0;
-  for (const BopScene& scene : data.scenes) count += scene.images.size();
-  return count;
-}
-
 void run(Arguments& arguments) {
   cli::checkOutputFile(arguments.csv);
   const BopDataset data = openBop(arguments.folder, arguments.split);
-  const std::size_t total = countImages(data);
+  const int total = imageCount(data);
   if (total == 0) {
     throw Error("BOP data set " + arguments.folder + ": has no images in split " + arguments.split +
                 "; name another one by --split");
@@ -82,22 +76,18 @@ void run(Arguments& arguments) {
   std::vector<BopEstimate> rows;
   double time_s = 0.0;
   int done = 0;
-  cli::Progress progress(std::cerr, "images", static_cast<int>(total), cli::terminalProgress());
+  cli::Progress progress(std::cerr, "images", total, cli::terminalProgress());
   for (const BopScene& scene : data.scenes) {
     for (const BopImage& image : scene.images) {
       const DepthImage depth = readDepth(image.depth_path, image.camera);
       const auto begin = std::chrono::steady_clock::now();
-      const std::vector<Scored> poses = estimator.estimate(depth, image.bin);
+      const std::vector<Candidate> poses = estimator.estimate(depth, image.bin);
       const std::chrono::duration<double> time = std::chrono::steady_clock::now() - begin;
       time_s += time.count();
-      for (const Scored& pose : poses) {
+      for (const Candidate& pose : poses) {
         const int obj_id = database.objects.at(static_cast<std::size_t>(pose.object)).id;
-        rows.push_back({scene.scene_id,
-                        image.im_id,
-                        obj_id,
-                        pose.score,
-                        pose.camera_from_object,
-                        time.count()});
+        rows.push_back(
+            {scene.scene_id, image.im_id, obj_id, pose.confidence, pose.pose, time.count()});
       }
       progress.update(++done);
     }

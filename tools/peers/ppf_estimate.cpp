@@ -7,24 +7,13 @@
 #include "pipeline/depth_noise.h"
 #include "pipeline/foreground.h"
 #include "pipeline/pose_distance.h"
+#include "pipeline/selection.h"
 
 namespace rangepose::peers {
 namespace {
 
-/// As in the estimate of rangepose.
-Image<std::uint8_t> foregroundOf(const DepthImage& depth,
-                                 const std::optional<BinBox>& bin,
-                                 const ReferenceDatabase& database) {
-  ForegroundOptions options;
-  options.part_mm = 0.0;
-  for (const ReferenceObject& object : database.objects)
-    options.part_mm = std::max(options.part_mm, object.diameter_mm);
-  options.tolerance_mm = std::max(1.5, 0.02 * options.part_mm);
-  return foregroundMask(depth, findBackground(depth, options), bin, options);
-}
-
 const Pose& poseOf(const PpfHypothesis& hypothesis) { return hypothesis.camera_from_object; }
-const Pose& poseOf(const Scored& scored) { return scored.camera_from_object; }
+const Pose& poseOf(const Candidate& candidate) { return candidate.pose; }
 
 /// The first `count` that are no copies of one before.
 template <typename Found>
@@ -44,14 +33,14 @@ std::vector<Found> different(const std::vector<Found>& found,
   return kept;
 }
 
-void sortByScore(std::vector<Scored>& poses) {
-  std::stable_sort(poses.begin(), poses.end(), [](const Scored& a, const Scored& b) {
-    return a.score > b.score;
+void sortByRank(std::vector<Candidate>& poses) {
+  std::stable_sort(poses.begin(), poses.end(), [](const Candidate& a, const Candidate& b) {
+    return a.rank > b.rank;
   });
 }
 
-void keepBest(std::vector<Scored>& poses, int count) {
-  sortByScore(poses);
+void keepBest(std::vector<Candidate>& poses, int count) {
+  sortByRank(poses);
   if (static_cast<int>(poses.size()) > count) poses.resize(static_cast<std::size_t>(count));
 }
 
@@ -77,31 +66,36 @@ PpfEstimator::PpfEstimator(const ReferenceDatabase& database, const PpfEstimateO
   }
 }
 
-std::vector<Scored> PpfEstimator::estimate(const DepthImage& depth,
-                                           const std::optional<BinBox>& bin) {
+std::vector<Candidate> PpfEstimator::estimate(const DepthImage& depth,
+                                              const std::optional<BinBox>& bin) {
   constexpr int kNormalReach = 3;
   constexpr double kIcpSpacing = 0.012;  // [share of the diameter]
   const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-  Scene scene{Verdict(depth, estimateDepthNoise(depth, everything)),
-              cloudOf(depth, foregroundOf(depth, bin, database_), kNormalReach),
-              {},
-              {}};
-  std::vector<Scored> poses;
+  const double noise_mm = estimateDepthNoise(depth, everything);
+  const ForegroundOptions background = foregroundOptionsFor(database_, noise_mm);
+  const Image<std::uint8_t> foreground =
+      foregroundMask(depth, findBackground(depth, background), bin, background);
+  Scene scene{
+      Verdict(depth, database_, noise_mm), cloudOf(depth, foreground, kNormalReach), {}, {}};
+  std::vector<Candidate> poses;
   for (std::size_t object = 0; object < database_.objects.size(); ++object) {
     scene.matched = thinned(scene.cloud, matchers_[object].front()->spacingMm());
     scene.aligned = thinned(scene.cloud, kIcpSpacing * database_.objects[object].diameter_mm);
-    const std::vector<Scored> own = search(scene, object);
+    const std::vector<Candidate> own = search(scene, object);
     poses.insert(poses.end(), own.begin(), own.end());
   }
-  return scene.verdict.withoutRivals(std::move(poses), database_.objects, options_.min_score);
+  const std::unique_ptr<StageSet> stages = makeHostStages();
+  Selection selection(depth, database_, noise_mm, options_.min_score, *stages);
+  selection.add(poses);
+  return selection.choose();
 }
 
-std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t index) {
+std::vector<Candidate> PpfEstimator::search(const Scene& scene, std::size_t index) {
   constexpr double kSame = 0.03;  // [share of the diameter]
   const ReferenceObject& object = database_.objects[index];
   const std::vector<glm::dvec3> seeds =
       spreadSeeds(scene.matched, options_.seeds_apart * object.diameter_mm, options_.most_seeds);
-  std::vector<std::vector<Scored>> found(seeds.size());
+  std::vector<std::vector<Candidate>> found(seeds.size());
   const auto workers = static_cast<std::size_t>(options_.workers);
   parallelFor(options_.workers, 1, [&](int begin, int end) {
     for (int worker = begin; worker < end; ++worker) {
@@ -111,10 +105,10 @@ std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t index) 
       }
     }
   });
-  std::vector<Scored> poses;
+  std::vector<Candidate> poses;
   for (const auto& of_seed : found) poses.insert(poses.end(), of_seed.begin(), of_seed.end());
   // Crops overlap: a part is found from several seeds, and aligned finally once.
-  sortByScore(poses);
+  sortByRank(poses);
   poses = different(poses, object, poses.size(), kSame);
   parallelFor(static_cast<int>(poses.size()), 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) alignFinally(scene, poses[static_cast<std::size_t>(i)]);
@@ -122,10 +116,10 @@ std::vector<Scored> PpfEstimator::search(const Scene& scene, std::size_t index) 
   return poses;
 }
 
-std::vector<Scored> PpfEstimator::searchCrop(const Scene& scene,
-                                             std::size_t index,
-                                             const glm::dvec3& seed,
-                                             PpfMatcher& matcher) const {
+std::vector<Candidate> PpfEstimator::searchCrop(const Scene& scene,
+                                                std::size_t index,
+                                                const glm::dvec3& seed,
+                                                PpfMatcher& matcher) const {
   constexpr PpfIcpOptions kShort{30, 0.01f, 2.5f, 3};
   constexpr int kPoints = 250;
   constexpr double kReach = 0.1;  // [share of the diameter]
@@ -135,40 +129,38 @@ std::vector<Scored> PpfEstimator::searchCrop(const Scene& scene,
   const Cloud crop = cropped(scene.matched, seed, options_.crop_radius * diameter_mm);
   const std::vector<PpfHypothesis> hypotheses =
       different(matcher.match(crop), object, static_cast<std::size_t>(options_.glanced), kSame);
-  std::vector<Scored> poses;
+  std::vector<Candidate> poses;
   poses.reserve(hypotheses.size());
   for (const PpfHypothesis& hypothesis : hypotheses) {
-    const Pose& pose = hypothesis.camera_from_object;
-    poses.push_back({static_cast<int>(index), pose, scene.verdict.glance(object, pose)});
+    Candidate& pose = poses.emplace_back();
+    pose.object = static_cast<int>(index);
+    pose.pose = hypothesis.camera_from_object;
+    scene.verdict.glance(pose);
   }
   keepBest(poses, options_.aligned);
   // A part that the seed lies on reaches up to a diameter far, beyond the crop.
   const Cloud target = cropped(scene.aligned, seed, 1.05 * diameter_mm);
-  for (Scored& pose : poses) {
-    const Cloud surface =
-        scene.verdict.visible(object, pose.camera_from_object, kReach * diameter_mm, kPoints);
-    pose.camera_from_object = matcher.align(surface, target, pose.camera_from_object, kShort);
-    pose.score = scene.verdict.score(object, pose.camera_from_object);
+  for (Candidate& pose : poses) {
+    const Cloud surface = scene.verdict.visible(pose, kReach * diameter_mm, kPoints);
+    pose.pose = matcher.align(surface, target, pose.pose, kShort);
+    scene.verdict.judge(pose);
   }
   keepBest(poses, options_.finalists);
   return poses;
 }
 
-void PpfEstimator::alignFinally(const Scene& scene, Scored& pose) const {
+void PpfEstimator::alignFinally(const Scene& scene, Candidate& pose) const {
   constexpr PpfIcpOptions kLong{100, 0.0005f, 2.5f, 3};
   constexpr int kPoints = 900;
   const auto index = static_cast<std::size_t>(pose.object);
   const ReferenceObject& object = database_.objects[index];
-  const Cloud target =
-      cropped(scene.aligned, pose.camera_from_object * object.center_mm, 1.1 * object.radius_mm);
+  const Cloud target = cropped(scene.aligned, pose.pose * object.center_mm, 1.1 * object.radius_mm);
   // What is visible changes a little with the pose: twice, with a smaller reach.
   for (const double reach : {0.06, 0.04}) {
-    const Cloud surface =
-        scene.verdict.visible(object, pose.camera_from_object, reach * object.diameter_mm, kPoints);
-    pose.camera_from_object =
-        matchers_[index].front()->align(surface, target, pose.camera_from_object, kLong);
+    const Cloud surface = scene.verdict.visible(pose, reach * object.diameter_mm, kPoints);
+    pose.pose = matchers_[index].front()->align(surface, target, pose.pose, kLong);
   }
-  pose.score = scene.verdict.score(object, pose.camera_from_object);
+  scene.verdict.judge(pose);
 }
 
 }  // namespace rangepose::peers

@@ -21,7 +21,7 @@ struct PpfEstimateOptions {
   int glanced = 40;        ///< hypotheses of a crop with the most votes, different ones, looked at
   int aligned = 8;         ///< of those the ones that explain most are aligned
   int finalists = 2;       ///< aligned ones of a crop that are aligned again, with more points
-  double min_score = 0.4;  ///< poses below are not reported
+  double min_score = 0.5;  ///< poses below are not reported
   int workers = 1;         ///< threads; the result does not depend on it
 };
 
@@ -31,18 +31,18 @@ class PpfEstimator {
   PpfEstimator(const ReferenceDatabase& database, const PpfEstimateOptions& options);
 
   /// Best first. Background is taken out as rangepose does it.
-  std::vector<Scored> estimate(const DepthImage& depth, const std::optional<BinBox>& bin);
+  std::vector<Candidate> estimate(const DepthImage& depth, const std::optional<BinBox>& bin);
 
  private:
   struct Scene;
   /// Aligned and scored poses of an object.
-  std::vector<Scored> search(const Scene& scene, std::size_t object);
+  std::vector<Candidate> search(const Scene& scene, std::size_t object);
   /// The finalists around a seed, roughly aligned.
-  std::vector<Scored> searchCrop(const Scene& scene,
-                                 std::size_t object,
-                                 const glm::dvec3& seed,
-                                 PpfMatcher& matcher) const;
-  void alignFinally(const Scene& scene, Scored& pose) const;
+  std::vector<Candidate> searchCrop(const Scene& scene,
+                                    std::size_t object,
+                                    const glm::dvec3& seed,
+                                    PpfMatcher& matcher) const;
+  void alignFinally(const Scene& scene, Candidate& pose) const;
 
   const ReferenceDatabase& database_;
   PpfEstimateOptions options_;

@@ -6,42 +6,32 @@
 
 #include "core/camera.h"
 #include "peers/scene_cloud.h"
-#include "stages/check_core.h"
-#include "stages/reference.h"
+#include "pipeline/refine.h"
 
 namespace rangepose::peers {
 
-struct Scored {
-  int object = 0;  ///< index into the database
-  Pose camera_from_object;
-  double score = 0.0;  ///< of the check, 0..1
-};
-
 class Verdict {
  public:
-  /// `depth` must outlive it; `noise_mm` is that of the image.
-  Verdict(const DepthImage& depth, double noise_mm) : depth_(depth), noise_mm_(noise_mm) {}
+  /// Depth image and database must outlive it; `noise_mm` is that of the image.
+  Verdict(const DepthImage& depth, const ReferenceDatabase& database, double noise_mm)
+      : depth_(depth), database_(database), noise_mm_(noise_mm) {}
 
-  /// The check that rangepose makes.
-  double score(const ReferenceObject& object, const Pose& pose) const;
+  /// Sets check, rank and confidence as rangepose does for a pose that it has aligned.
+  void judge(Candidate& candidate) const;
 
-  /// The same with a tolerance as wide as a pose before ICP is wrong, at low resolution.
-  double glance(const ReferenceObject& object, const Pose& pose) const;
+  /// Sets the rank of a pose before ICP: tolerance as wide as such a pose is wrong, few pixels.
+  void glance(Candidate& candidate) const;
 
   /// What the camera would see of the posed object, in the object's frame, without what lies behind
   /// nearer data by more than `reach_mm`; about `count` points.
-  Cloud visible(const ReferenceObject& object, const Pose& pose, double reach_mm, int count) const;
-
-  /// The best poses that do not explain the same pixels, best first: each must explain three
-  /// quarters of its own alone, and none may be a symmetric copy of a better one.
-  std::vector<Scored> withoutRivals(std::vector<Scored> poses,
-                                    const std::vector<ReferenceObject>& objects,
-                                    double min_score) const;
+  Cloud visible(const Candidate& candidate, double reach_mm, int count) const;
 
  private:
-  std::vector<glm::ivec2> explained(const ReferenceObject& object, const Pose& pose) const;
+  const ReferenceObject& objectOf(const Candidate& candidate) const;
+  CheckResult checked(const Candidate& candidate, const CheckOptions& options, int pixels) const;
 
   const DepthImage& depth_;
+  const ReferenceDatabase& database_;
   double noise_mm_;
 };
 
