@@ -59,12 +59,7 @@ RP_BODY void alignPose(Block& block,
                        IcpResult& answer) {
   block.leader([&] {
     shared.result = {task.start, 0.0, 0.0, 0};
-    shared.frame = {task.start,
-                    task.start * task.center_mm,
-                    task.radius_mm,
-                    task.options.first_reach_mm,
-                    task.options.search_steps,
-                    task.options.slide};
+    shared.frame = firstFrame(task.start, task.center_mm, task.radius_mm, task.options);
     shared.done = false;
   });
   block.barrier();
@@ -74,7 +69,7 @@ RP_BODY void alignPose(Block& block,
       PointSums own{};
       for (int i = thread; i < task.point_count; i += Block::kThreads) {
         const SurfacePoint& point = points[task.first_point + i];
-        if (addPoint(own.icp, shared.frame, scene, point.position_mm, point.normal)) {
+        if (addPoint(own.icp, shared.frame, scene, point)) {
           own.pairs += 1.0;
         }
       }

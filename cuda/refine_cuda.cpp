@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "cuda/surface_points_body.h"
 
 namespace rangepose::cuda {
 
@@ -101,7 +102,7 @@ std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
                    task.radius_mm,
                    task.alignment,
                    icpShrink(task.alignment)});
-    first += task.window.width * task.window.height;
+    first += mostPoints(task.window);
     most_points = std::max(most_points, task.max_points);
   }
   points_.reserve(static_cast<std::size_t>(std::max(first, 1)));

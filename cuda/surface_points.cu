@@ -29,6 +29,7 @@ __global__ __launch_bounds__(kThreads) void pickPointsKernel(const PickTask* __r
              camera,
              task.start,
              pick.max_points,
+             task.options.rim_reach_mm > 0.0,
              points + task.first_point,
              task.point_count);
 }

@@ -19,8 +19,8 @@ struct PickTask {
 };
 
 /// For each task (all on the device) the points of its surface, rendered at tasks[i].start, into
-/// `points` from tasks[i].first_point on, window.width * window.height at most; sets
-/// tasks[i].point_count.
+/// `points` from tasks[i].first_point on, mostPoints(window) at most, with its rim where the task's
+/// alignment uses it; sets tasks[i].point_count.
 void pickPoints(const PickTask* picks,
                 const Camera& camera,
                 int task_count,

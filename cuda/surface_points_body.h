@@ -1,5 +1,6 @@
 // The points of a rendered surface, picked by one block. Runs on the device and, in tests, on the
-// host; see block.h. Same points in the same order as pointsOfSurface of the host.
+// host; see block.h. Same points in the same order as the host's pointsOfSurface, then
+// rimOfSurface.
 #pragma once
 
 #include "cuda/block.h"
@@ -12,18 +13,21 @@ template <int kThreads>
 struct PickShared {
   int stride;
   int columns;          ///< of the samples
-  int samples;          ///< in all
+  int samples;          ///< in all; the pixels of the window follow, where a rim is wanted
   int first[kThreads];  ///< place of a thread's first point
   int found[kThreads];  ///< points of a thread
 };
+
+/// Each pixel gives a point of a face and one of the rim at most.
+RP_HD int mostPoints(const SurfaceWindow& window) { return 2 * window.width * window.height; }
 
 /// A whole number for HostBlock::sum.
 struct Seen {
   int texels;
 };
 
-/// `surface(x, y)` reads a texel of the window. `points` holds window.width * window.height at
-/// least; the number of points is the answer.
+/// `surface(x, y)` reads a texel of the window. `points` holds mostPoints(window) at least; the
+/// number of points is the answer.
 template <typename Block, typename Surface>
 RP_BODY void pickPoints(Block& block,
                         PickShared<Block::kThreads>& shared,
@@ -32,6 +36,7 @@ RP_BODY void pickPoints(Block& block,
                         const Camera& camera,
                         const Pose& camera_from_object,
                         int max_points,
+                        bool with_rim,
                         SurfacePoint* points,
                         int& answer) {
   constexpr int kThreads = Block::kThreads;
@@ -54,19 +59,35 @@ RP_BODY void pickPoints(Block& block,
     shared.samples = shared.columns * along(window.height);
   });
   // Each thread has samples in a row, so that its points lie behind those of the thread before.
-  const int each = (shared.samples + kThreads - 1) / kThreads;
-  const auto forOwnSamples = [&](int thread, const auto& at) {
-    const int end = (thread + 1) * each < shared.samples ? (thread + 1) * each : shared.samples;
+  const int all = shared.samples + (with_rim ? window.width * window.height : 0);
+  const int each = (all + kThreads - 1) / kThreads;
+  const Pose object_from_camera = camera_from_object.inverse();
+  const int rim_stride = rimStride(shared.stride);
+  /// Calls add(makePoint) for each point.
+  const auto forOwnSamples = [&](int thread, const auto& add) {
+    const int end = (thread + 1) * each < all ? (thread + 1) * each : all;
     for (int sample = thread * each; sample < end; ++sample) {
-      const int x = shared.stride / 2 + sample % shared.columns * shared.stride;
-      const int y = shared.stride / 2 + sample / shared.columns * shared.stride;
+      const bool face = sample < shared.samples;
+      const int pixel = sample - shared.samples;
+      const int x =
+          face ? shared.stride / 2 + sample % shared.columns * shared.stride : pixel % window.width;
+      const int y =
+          face ? shared.stride / 2 + sample / shared.columns * shared.stride : pixel / window.width;
       const SurfaceTexel texel = surface(x, y);
-      if (texel.w > 0.0f) at(texel, x, y);
+      if (texel.w <= 0.0f) continue;
+      if (face) {
+        add([&] { return pointOfTexel(texel, camera, window, object_from_camera, x, y); });
+        continue;
+      }
+      if (!isRim(surface, window, x, y, rim_stride)) continue;
+      const glm::dvec2 out = outOfSurface(surface, window, x, y);
+      if (out == glm::dvec2(0.0)) continue;
+      add([&] { return rimOfTexel(texel, out, camera, window, object_from_camera, x, y); });
     }
   };
   block.forEachThread([&](int thread) {
     int found = 0;
-    forOwnSamples(thread, [&](const SurfaceTexel&, int, int) { ++found; });
+    forOwnSamples(thread, [&](const auto&) { ++found; });
     shared.found[thread] = found;
   });
   block.barrier();
@@ -79,12 +100,9 @@ RP_BODY void pickPoints(Block& block,
     answer = next;
   });
   block.barrier();
-  const Pose object_from_camera = camera_from_object.inverse();
   block.forEachThread([&](int thread) {
     int next = shared.first[thread];
-    forOwnSamples(thread, [&](const SurfaceTexel& texel, int x, int y) {
-      points[next++] = pointOfTexel(texel, camera, window, object_from_camera, x, y);
-    });
+    forOwnSamples(thread, [&](const auto& makePoint) { points[next++] = makePoint(); });
   });
 }
 

@@ -56,7 +56,7 @@ std::vector<AblationRow> ablationRows() {
           holesRow("holes at the limit", HolePolicy::kLimit),
           limitRow("range limit 4 px", 4.0f),
           limitRow("range limit 16 px", 16.0f),
-          limitRow("range limit none", 1.0e9f),
+          limitRow("range limit none (paper)", kNoRangeLimit),
           spreadRow("simplex spread 5 % (paper)", 0.05f),
           spreadRow("simplex spread 0.5 %", 0.005f),
           startsRow("1 start", 1),

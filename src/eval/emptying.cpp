@@ -49,6 +49,7 @@ std::vector<Trial> emptyBin(const VirtualBin& bin,
     trial.bin = bin.number;
     trial.number = static_cast<int>(i);
     trial.search = gradePose(model, scan, found.search);
+    trial.unlimited = gradePose(model, scan, found.unlimited);
     trial.rough = gradePose(model, scan, found.rough);
     trial.fine = gradePose(model, scan, found.fine);
     trial.score = found.score;

@@ -22,10 +22,12 @@ inline constexpr double kRightVertexError = 0.10;  ///< of the bounding box's di
 /// What a method answers to one scan; empty poses where it has none.
 struct TrialAnswer {
   std::optional<Pose> search;  ///< the hypothesis with the smallest error of all (paper Eq. 7)
-  std::optional<Pose> rough;   ///< the best after alignment with the points of its own view
-  std::optional<Pose> fine;    ///< after refinement and check
-  double score = 0.0;          ///< confidence of `fine`
-  StageTimes times;            ///< empty when not measured
+  /// The same of a search whose range differences count without limit, as in the paper's Eq. 5.
+  std::optional<Pose> unlimited;
+  std::optional<Pose> rough;  ///< the best after alignment with the points of its own view
+  std::optional<Pose> fine;   ///< after refinement and check
+  double score = 0.0;         ///< confidence of `fine`
+  StageTimes times;           ///< empty when not measured
 };
 
 /// One pose against the part nearest to it.
@@ -42,6 +44,7 @@ struct Trial {
   int bin = 0;     ///< VirtualBin::number
   int number = 0;  ///< 0 is the full bin
   PoseGrade search;
+  PoseGrade unlimited;
   PoseGrade rough;
   PoseGrade fine;
   double score = 0.0;

@@ -39,7 +39,8 @@ Chart successChart(const SettingRun& run) {
   chart.note = settingName(run.setting) + ", " + std::to_string(trials.size()) + " trials";
   chart.x = {"limit of the vertex error [% of the diagonal]", 0.0, kSuccessEnd};
   chart.y = {"right [%]", 0.0, 100.0};
-  chart.curves = {successCurve("Eq. 1 alone", trials, &Trial::search),
+  chart.curves = {successCurve("Eq. 1 alone, no limit", trials, &Trial::unlimited),
+                  successCurve("Eq. 1 alone", trials, &Trial::search),
                   successCurve("aligned with its view", trials, &Trial::rough),
                   successCurve("after refinement", trials, &Trial::fine)};
   return chart;

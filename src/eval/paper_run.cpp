@@ -44,6 +44,17 @@ std::optional<Pose> bestOfSearch(const ReferenceObject& object, const ObjectTrac
   return poseOf(*best, object, trace.windows[static_cast<std::size_t>(best->window)].camera);
 }
 
+std::optional<Pose> bestOfUnlimitedSearch(const BinScan& scan,
+                                          const ReferenceDatabase& database,
+                                          EstimateOptions options,
+                                          StageSet& stages) {
+  options.search.error.range_limit_px = kNoRangeLimit;
+  options.kept_per_start = options.verified = 1;  // what follows the search is not asked for
+  EstimateTrace trace;
+  estimatePoses(scan.image, scan.bin, database, options, stages, &trace);
+  return bestOfSearch(database.objects.front(), trace.objects.front());
+}
+
 }  // namespace
 
 PaperModels paperModels(const std::filesystem::path& models,
@@ -98,6 +109,7 @@ TrialAnswer answerOf(const BinScan& scan,
   const Estimate estimate = estimatePoses(scan.image, scan.bin, database, options, stages, &trace);
   TrialAnswer answer;
   answer.search = bestOfSearch(database.objects.front(), trace.objects.front());
+  answer.unlimited = bestOfUnlimitedSearch(scan, database, options, stages);
   if (!trace.coarse.empty()) answer.rough = trace.coarse.front().pose;
   if (!estimate.poses.empty()) {
     const PoseEstimate& first = estimate.poses.front();

@@ -56,8 +56,9 @@ ReferenceDatabase referencesOf(const PaperModel& model,
                                int size,
                                const std::vector<glm::dmat3>& views);
 
-/// The answer of the pipeline to a scan: the hypothesis with the smallest error of all, and the
-/// first pose. With `timed` the scan is estimated a second time, without a trace, for its times.
+/// The answer of the pipeline to a scan: the hypothesis with the smallest error of all, also with
+/// range differences that count without limit, and the first pose. With `timed` the scan is
+/// estimated a second time, without a trace, for its times.
 TrialAnswer answerOf(const BinScan& scan,
                      const ReferenceDatabase& database,
                      const EstimateOptions& options,

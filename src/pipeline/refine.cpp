@@ -111,6 +111,7 @@ struct FineRounds {
   int rounds;          ///< at most
   int points;          ///< of each surface
   double first_reach;  ///< of the first round [tolerances]
+  double still;        ///< see FineEffort
 };
 
 /// Aligns what is visible of the candidates that move, and gives those that moved still.
@@ -118,19 +119,26 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const std::vector<std::size_t>& moving,
                                        const ReferenceDatabase& database,
                                        const RefineScene& scene,
-                                       int points,
+                                       const FineRounds& fine,
                                        double reach_tolerances) {
   constexpr int kFineIterations = 12;
-  // A pose that moves by less has come to rest [share of the diameter].
-  constexpr double kStill = 1e-4;
+  // Poses that are nearly right find their partners next to where they look.
+  constexpr double kNearlyRight = 4.0;  // tolerances
+  // Faces alone leave a plate free to slide in its plane; where rims hold it, the pull towards the
+  // nearest points only slows it down.
+  constexpr double kRimReach = 0.05;  // of the diameter
+  constexpr double kSlide = 0.001;
   std::vector<RenderTask> tasks;
   for (const std::size_t i : moving) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     const double tolerance = toleranceFor(object, scene.noise_mm);
     RenderTask& task = tasks.emplace_back(
         surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
-    task.max_points = points;
+    task.max_points = fine.points;
     task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
+    task.alignment.search_steps = reach_tolerances > kNearlyRight ? 2 : 1;
+    task.alignment.slide = kSlide;
+    task.alignment.rim_reach_mm = kRimReach * object.diameter_mm;
   }
   const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
   std::vector<std::size_t> still_moving;
@@ -138,7 +146,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     Candidate& candidate = candidates[moving[i]];
     const Pose before = std::exchange(candidate.pose, aligned[i].camera_from_object);
     const double moved = PoseDistance(objectOf(candidate, database))(before, candidate.pose);
-    if (!(moved < kStill)) still_moving.push_back(moving[i]);
+    if (!(moved < fine.still)) still_moving.push_back(moving[i]);
   }
   return still_moving;
 }
@@ -153,7 +161,7 @@ void refineAll(std::vector<Candidate>& candidates,
   std::iota(moving.begin(), moving.end(), std::size_t{0});
   for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
     const double reach = round == 0 ? fine.first_reach : kLaterReach;
-    moving = alignSurfaces(candidates, moving, database, scene, fine.points, reach);
+    moving = alignSurfaces(candidates, moving, database, scene, fine, reach);
   }
   std::vector<RenderTask> tasks;
   tasks.reserve(candidates.size());
@@ -171,13 +179,12 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
                   const FineEffort& effort) {
-  constexpr FineRounds kFinalists{8, 900, 3.0};
   // Odds of e^-6: no long alignment makes such a pose right.
   constexpr double kHopeless = -6.0;
-  refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0});
+  refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
-  refineAll(candidates, database, scene, kFinalists);
+  refineAll(candidates, database, scene, {8, 900, 3.0, effort.still});
 }
 
 }  // namespace rangepose

@@ -60,6 +60,7 @@ struct FineEffort {
   int rounds;     ///< of rendering and alignment before the finalists are chosen
   int points;     ///< of a surface in these rounds
   int finalists;  ///< of each start, that are aligned until they rest
+  double still;   ///< a pose that moves by less in a round rests [share of the diameter]
 };
 
 /// Renders the candidates at the sensor's resolution, aligns the visible part, and checks the

@@ -29,13 +29,16 @@ enum class HolePolicy : int {
   kLimit = 2,   ///< difference range_limit_px: a hole is as bad as the worst surface
 };
 
+/// Larger than any difference of ranges in an image [px].
+inline constexpr float kNoRangeLimit = 1.0e9f;
+
 struct ErrorOptions {
   /// Weight of E_range, for ranges as a fraction of the image width (paper: 20). With ranges in
   /// pixels that is lambda / image_width_px per pixel: 0.31 at 64 px.
   float lambda = 20.0f;
   int image_width_px = 64;  ///< width of a reference image [px]
   float range_limit_px =
-      8.0f;  ///< range differences count at most this much [px]; infinite in the paper
+      8.0f;  ///< range differences count at most this much [px]; in the paper without limit
   AreaFactor area = AreaFactor::kIntended;
   HolePolicy holes = HolePolicy::kIgnore;
   float lambdaPerPx() const { return lambda / static_cast<float>(image_width_px); }

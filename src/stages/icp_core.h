@@ -7,8 +7,23 @@
 #include "core/camera.h"
 #include "core/pose.h"
 #include "stages/device.h"
+#include "stages/surface_points.h"
 
 namespace rangepose {
+
+struct IcpOptions {
+  int iterations = 10;
+  double first_reach_mm =
+      8.0;  ///< pairs farther apart than this are left out, in the first iteration [mm]
+  double last_reach_mm = 2.0;  ///< in the last iteration [mm]; in between geometric
+  int search_steps =
+      2;               ///< partners are looked for on a grid of 2 * search_steps + 1 pixels a side
+  double slide = 0.1;  ///< share of the point-to-point term
+  double rim_reach_mm = 0.0;  ///< as far the end of the data may be from a rim [mm]; 0: no rims
+  /// Of a rim against a point of a face: it is known to a part of a pixel, a face to the noise.
+  double rim_weight = 0.07;
+  void check() const;  ///< throws Error naming the bad field
+};
 
 /// Upper triangle of a symmetric 6x6 matrix, row by row, a right side, and the sums that say how
 /// good the fit is.
@@ -181,23 +196,118 @@ struct IcpFrame {
   double radius_mm;      ///< of that sphere
   double reach_mm;       ///< pairs farther apart are left out
   int search_steps;
-  double slide;  ///< share of the point-to-point term
+  double slide;         ///< share of the point-to-point term
+  double rim_reach_mm;  ///< see IcpOptions
+  double rim_weight;
+  double rim_gap_mm;  ///< data so far behind the rim's surface belongs to something else
 };
 
-/// Adds a surface point of the object, given in its frame, with its partner; false if it has none.
-/// The weight is Tukey's over the reach.
+/// The first iteration's. `center_mm` is that of the object's sphere in the object's frame.
+RP_HD IcpFrame firstFrame(const Pose& start,
+                          const glm::dvec3& center_mm,
+                          double radius_mm,
+                          const IcpOptions& options) {
+  return {start,
+          start * center_mm,
+          radius_mm,
+          options.first_reach_mm,
+          options.search_steps,
+          options.slide,
+          options.rim_reach_mm,
+          options.rim_weight,
+          options.last_reach_mm};
+}
+
+struct RimPartner {
+  bool found;
+  double beyond_mm;  ///< as far the data goes on beyond the rim; negative where it ends before
+};
+
+/// Where the data ends nearest to a rim on the line `out` (unit, the tangent) across it: the
+/// surface is followed from inside to outside, and what lies behind it or was not measured, twice
+/// in a row, ends it. Nearer data hides where the surface ends.
+template <typename Read>
+RP_HD RimPartner rimPartner(const DepthReader<Read>& scene,
+                            const glm::dvec3& point_mm,
+                            const glm::dvec3& out,
+                            double reach_mm,
+                            double gap_mm) {
+  constexpr int kEnded = 2;
+  RimPartner nearest{false, reach_mm};
+  if (!scene.camera.orthographic && point_mm.z <= 1.0) return nearest;
+  const double step_mm = scene.camera.pixelSpacingMm(point_mm.z);
+  const double across = std::sqrt(out.x * out.x + out.y * out.y);
+  if (!(across > 0.1)) return nearest;
+  // A pixel a step. Over so short a way the line's image is taken as evenly spaced.
+  const glm::dvec3 step = out * (step_mm / across);
+  const glm::dvec2 pixel = scene.camera.project(point_mm);
+  const glm::dvec2 pixel_step = scene.camera.project(point_mm + step) - pixel;
+  const int steps = static_cast<int>(std::ceil(reach_mm / step_mm)) + 1;
+  const double u_margin = (steps + 1) * std::fabs(pixel_step.x) + 0.5;
+  const double v_margin = (steps + 1) * std::fabs(pixel_step.y) + 0.5;
+  // Not "outside", so that a NaN counts as outside too.
+  if (!(pixel.x > u_margin && pixel.x < scene.width - 1 - u_margin && pixel.y > v_margin &&
+        pixel.y < scene.height - 1 - v_margin)) {
+    return nearest;
+  }
+  int last_on = 0;
+  int off = kEnded;  // nothing has begun that could end
+  for (int i = -steps; i <= steps + 1; ++i) {
+    const double seen = scene.read(static_cast<int>(pixel.x + i * pixel_step.x + 0.5),
+                                   static_cast<int>(pixel.y + i * pixel_step.y + 0.5));
+    const double behind = seen - (point_mm.z + i * step.z);
+    if (seen != 0.0 && behind < -gap_mm) {
+      off = kEnded;
+    } else if (seen != 0.0 && behind < gap_mm) {
+      last_on = i;
+      off = 0;
+    } else if (++off == kEnded) {
+      const double beyond_mm = (last_on + 0.5) * step_mm;
+      if (std::fabs(beyond_mm) < std::fabs(nearest.beyond_mm)) nearest = {true, beyond_mm};
+    }
+  }
+  return nearest;
+}
+
+/// Adds a point of the rim, given in the camera frame, with its partner; false if it has none. Its
+/// row says how far the rim moves across itself in the image, which motion along the line of sight
+/// does not change. Without weight in the sums that tell how well faces fit.
+template <typename Read>
+RP_HD bool addRim(IcpSums& sums,
+                  const IcpFrame& frame,
+                  const DepthReader<Read>& scene,
+                  const glm::dvec3& point_mm,
+                  const glm::dvec3& out) {
+  const RimPartner partner = rimPartner(scene, point_mm, out, frame.rim_reach_mm, frame.rim_gap_mm);
+  if (!partner.found) return false;
+  const double across = std::sqrt(out.x * out.x + out.y * out.y);
+  glm::dvec3 n(out.x / across, out.y / across, 0.0);
+  if (!scene.camera.orthographic) n.z = -(n.x * point_mm.x + n.y * point_mm.y) / point_mm.z;
+  const double residual = partner.beyond_mm * glm::dot(n, out) / (across * frame.radius_mm);
+  const glm::dvec3 m = (point_mm - frame.center_mm) / frame.radius_mm;
+  const glm::dvec3 turn = glm::cross(m, n);
+  const double ratio = partner.beyond_mm / frame.rim_reach_mm;
+  const double rest = 1.0 - ratio * ratio;
+  addRow(sums, {turn.x, turn.y, turn.z, n.x, n.y, n.z}, residual, frame.rim_weight * rest * rest);
+  return true;
+}
+
+/// Adds a point of the object with its partner; false if it has none. The weight is Tukey's over
+/// the reach.
 template <typename Read>
 RP_HD bool addPoint(IcpSums& sums,
                     const IcpFrame& frame,
                     const DepthReader<Read>& scene,
-                    const glm::vec3& position_mm,
-                    const glm::vec3& normal) {
-  const glm::dvec3 point = frame.pose * glm::dvec3(position_mm);
+                    const SurfacePoint& own) {
+  const glm::dvec3 point = frame.pose * glm::dvec3(own.position_mm);
+  const glm::dvec3 n = frame.pose.rotation * glm::dvec3(own.normal);
+  if (own.rim) {
+    return frame.rim_reach_mm > 0.0 && addRim(sums, frame, scene, point, n);
+  }
   const IcpPartner partner = icpPartner(scene, point, frame.reach_mm, frame.search_steps);
   if (!partner.found) return false;
   const glm::dvec3 gap = partner.point_mm - point;
   const glm::dvec3 m = (point - frame.center_mm) / frame.radius_mm;
-  const glm::dvec3 n = frame.pose.rotation * glm::dvec3(normal);
   const glm::dvec3 s = (partner.point_mm - frame.center_mm) / frame.radius_mm;
   const double rest = 1.0 - glm::dot(gap, gap) / (frame.reach_mm * frame.reach_mm);
   const double weight = rest > 0.0 ? rest * rest : 0.0;

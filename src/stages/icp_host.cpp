@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stages/icp_core.h"
-
 namespace rangepose {
 
 void IcpOptions::check() const {
@@ -13,6 +11,8 @@ void IcpOptions::check() const {
            "icp reach must be positive and not grow");
   RP_CHECK(search_steps >= 0, "icp search_steps must not be negative");
   RP_CHECK(slide >= 0.0, "icp slide must not be negative");
+  RP_CHECK(rim_reach_mm >= 0.0, "icp rim reach must not be negative");
+  RP_CHECK(rim_weight >= 0.0, "icp rim weight must not be negative");
 }
 
 double icpShrink(const IcpOptions& options) {
@@ -34,22 +34,22 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
   const DepthReader<decltype(read)> scene{camera, scene_mm.width(), scene_mm.height(), read};
   IcpResult result{start, 0.0, 0.0, 0};
   const double shrink = icpShrink(options);
-  double reach = options.first_reach_mm;
-  for (int iteration = 0; iteration < options.iterations; ++iteration, reach *= shrink) {
-    Pose& pose = result.camera_from_object;
-    const IcpFrame frame{
-        pose, pose * center_mm, radius_mm, reach, options.search_steps, options.slide};
+  IcpFrame frame = firstFrame(start, center_mm, radius_mm, options);
+  for (int iteration = 0; iteration < options.iterations; ++iteration) {
     IcpSums sums{};
     int pairs = 0;
     for (const SurfacePoint& point : points) {
-      if (addPoint(sums, frame, scene, point.position_mm, point.normal)) ++pairs;
+      if (addPoint(sums, frame, scene, point)) ++pairs;
     }
     result.iterations = iteration + 1;
     result.paired =
         points.empty() ? 0.0 : static_cast<double>(pairs) / static_cast<double>(points.size());
     if (pairs < kFewestPairs) return result;
     result.rms_mm = icpRms(sums, radius_mm);
-    if (!icpMove(pose, sums, frame, center_mm)) return result;
+    if (!icpMove(result.camera_from_object, sums, frame, center_mm)) return result;
+    frame.pose = result.camera_from_object;
+    frame.center_mm = frame.pose * center_mm;
+    frame.reach_mm *= shrink;
   }
   return result;
 }

@@ -4,20 +4,10 @@
 #include <vector>
 
 #include "core/camera.h"
+#include "stages/icp_core.h"
 #include "stages/surface_points.h"
 
 namespace rangepose {
-
-struct IcpOptions {
-  int iterations = 10;
-  double first_reach_mm =
-      8.0;  ///< pairs farther apart than this are left out, in the first iteration [mm]
-  double last_reach_mm = 2.0;  ///< in the last iteration [mm]; in between geometric
-  int search_steps =
-      2;               ///< partners are looked for on a grid of 2 * search_steps + 1 pixels a side
-  double slide = 0.1;  ///< share of the point-to-point term
-  void check() const;  ///< throws Error naming the bad field
-};
 
 /// What the reach is multiplied with from one iteration to the next.
 double icpShrink(const IcpOptions& options);
@@ -33,8 +23,8 @@ namespace host {
 
 /// Projective association: a model point looks for the nearest scene point in the image around its
 /// own pixel; points behind nearer data are hidden and left out. Robust weights (Tukey) over the
-/// annealed reach. `scene_mm` is the depth image without background, `center_mm` and `radius_mm`
-/// the object's sphere.
+/// annealed reach. Points of a rim look for the end of the data instead. `scene_mm` is the depth
+/// image without background, `center_mm` and `radius_mm` the object's sphere.
 IcpResult icp(const std::vector<SurfacePoint>& points,
               const Camera& camera,
               const Image<float>& scene_mm,

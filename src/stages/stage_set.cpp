@@ -98,7 +98,14 @@ std::vector<IcpResult> StageSet::alignSurfaces(const ResidentDepth& depth,
     const Camera& camera = own.depth.camera;
     const Image<SurfaceTexel> surface =
         renderSurface(*task.mesh, camera, task.camera_from_object, task.window);
-    return pointsOfSurface(surface, camera, task.window, task.camera_from_object, task.max_points);
+    std::vector<SurfacePoint> points =
+        pointsOfSurface(surface, camera, task.window, task.camera_from_object, task.max_points);
+    if (task.alignment.rim_reach_mm > 0.0) {
+      const std::vector<SurfacePoint> rim =
+          rimOfSurface(surface, camera, task.window, task.camera_from_object, task.max_points);
+      points.insert(points.end(), rim.begin(), rim.end());
+    }
+    return points;
   };
   const auto points =
       forEachTask<std::vector<SurfacePoint>>(tasks, renderGrain(*this, tasks.size()), render);

@@ -63,7 +63,7 @@ struct RenderTask {
   const Mesh* mesh = nullptr;
   Pose camera_from_object;
   SurfaceWindow window;       ///< of the rendering; of the depth image's camera
-  int max_points = 0;         ///< alignment: >= 1, of the surface, as in pointsOfSurface
+  int max_points = 0;         ///< alignment: >= 1, as in pointsOfSurface and rimOfSurface
   glm::dvec3 center_mm{0.0};  ///< alignment
   double radius_mm = 0.0;     ///< alignment
   IcpOptions alignment;

@@ -38,14 +38,22 @@ std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, 
   return points;
 }
 
+namespace {
+
+int strideOn(const Image<SurfaceTexel>& surface, int max_points) {
+  const auto seen = std::count_if(
+      surface.begin(), surface.end(), [](const SurfaceTexel& texel) { return texel.w > 0.0f; });
+  return pointStride(static_cast<float>(seen), max_points);
+}
+
+}  // namespace
+
 std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           const Camera& camera,
                                           const SurfaceWindow& window,
                                           const Pose& camera_from_object,
                                           int max_points) {
-  const auto seen = std::count_if(
-      surface.begin(), surface.end(), [](const SurfaceTexel& texel) { return texel.w > 0.0f; });
-  const int stride = pointStride(static_cast<float>(seen), max_points);
+  const int stride = strideOn(surface, max_points);
   const Pose object_from_camera = camera_from_object.inverse();
   std::vector<SurfacePoint> points;
   for (int y = stride / 2; y < surface.height(); y += stride) {
@@ -53,6 +61,27 @@ std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
       const SurfaceTexel& texel = surface.at(x, y);
       if (texel.w <= 0.0f) continue;
       points.push_back(pointOfTexel(texel, camera, window, object_from_camera, x, y));
+    }
+  }
+  return points;
+}
+
+std::vector<SurfacePoint> rimOfSurface(const Image<SurfaceTexel>& surface,
+                                       const Camera& camera,
+                                       const SurfaceWindow& window,
+                                       const Pose& camera_from_object,
+                                       int max_points) {
+  const int stride = rimStride(strideOn(surface, max_points));
+  const auto read = [&](int x, int y) { return surface.at(x, y); };
+  const Pose object_from_camera = camera_from_object.inverse();
+  std::vector<SurfacePoint> points;
+  for (int y = 0; y < surface.height(); ++y) {
+    for (int x = 0; x < surface.width(); ++x) {
+      const SurfaceTexel& texel = surface.at(x, y);
+      if (texel.w <= 0.0f || !isRim(read, window, x, y, stride)) continue;
+      const glm::dvec2 out = outOfSurface(read, window, x, y);
+      if (out == glm::dvec2(0.0)) continue;
+      points.push_back(rimOfTexel(texel, out, camera, window, object_from_camera, x, y));
     }
   }
   return points;

@@ -10,9 +10,13 @@
 
 namespace rangepose {
 
+/// A point of a surface as a viewer sees it, in the object's frame.
 struct SurfacePoint {
-  glm::vec3 position_mm;  ///< in the object's frame
-  glm::vec3 normal;       ///< unit, towards the viewer, in the object's frame
+  glm::vec3 position_mm;
+  glm::vec3 normal;  ///< unit, towards the viewer; of a rim see there
+  /// Whether what is seen of the object ends here. Then `normal` is the unit tangent of the surface
+  /// that leads out of it, straight across its rim for the viewer.
+  bool rim = false;
 };
 
 /// Points of a database view, from its pixels that are not edges; normals from the differences of
@@ -26,5 +30,12 @@ std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           const SurfaceWindow& window,
                                           const Pose& camera_from_object,
                                           int max_points);
+
+/// Points of its rim, about two thirds as dense along it as those of pointsOfSurface.
+std::vector<SurfacePoint> rimOfSurface(const Image<SurfaceTexel>& surface,
+                                       const Camera& camera,
+                                       const SurfaceWindow& window,
+                                       const Pose& camera_from_object,
+                                       int max_points);
 
 }  // namespace rangepose

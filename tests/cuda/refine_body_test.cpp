@@ -52,6 +52,45 @@ TEST_P(RefineBodyTest, AlignmentIsTheHosts) {
   }
 }
 
+TEST_P(RefineBodyTest, RimsAreTheHosts) {
+  test::RefineScene scene(4, GetParam());
+  for (int view = 0; view < 4; ++view) {
+    scene.show(view);
+    const Camera& camera = scene.depth.camera;
+    const SurfaceWindow window = wholeWindowAround(
+        camera, scene.truth * scene.object.center_mm, scene.object.radius_mm, 112);
+    const Image<SurfaceTexel> surface =
+        host::renderSurface(scene.object.mesh, camera, scene.truth, window);
+    std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, scene.truth, 300);
+    const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, scene.truth, 300);
+    ASSERT_GT(rim.size(), 10U);
+    points.insert(points.end(), rim.begin(), rim.end());
+    IcpOptions options;
+    const auto byHost = [&] {
+      return host::icp(points,
+                       camera,
+                       scene.depth.depth_mm,
+                       scene.rough,
+                       scene.object.center_mm,
+                       scene.object.radius_mm,
+                       options);
+    };
+    const IcpResult without = byHost();
+    options.rim_reach_mm = 6.0;
+    const IcpResult expected = byHost();
+    const IcpResult actual = alignedByBlock<64>(scene, points, options);
+    EXPECT_LT(
+        test::farthestCorner(scene.object, actual.camera_from_object, expected.camera_from_object),
+        test::kAlignedMm)
+        << "view " << view;
+    EXPECT_EQ(actual.paired, expected.paired);
+    EXPECT_GT(
+        test::farthestCorner(scene.object, without.camera_from_object, expected.camera_from_object),
+        10.0 * test::kAlignedMm)
+        << "rims change nothing";
+  }
+}
+
 TEST_P(RefineBodyTest, TheNumberOfThreadsMovesNothingMuch) {
   test::RefineScene scene(1, GetParam());
   const std::vector<SurfacePoint> points = pointsOfView(scene.object, 0, 300);

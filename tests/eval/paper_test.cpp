@@ -70,6 +70,8 @@ Trial trialOf(bool right, double vertex, double degrees) {
   trial.fine.euler_rad = glm::dvec3(trial.fine.rotation_rad, 0.0, 0.0);
   trial.fine.center = 0.5;
   trial.rough = trial.fine;
+  trial.unlimited = trial.fine;
+  trial.unlimited.vertex *= 2.0;
   trial.visible = 0.9;
   return trial;
 }
@@ -104,8 +106,9 @@ TEST(PaperTables, OursBesideThePapers) {
   EXPECT_THAT(
       text,
       AllOf(
-          HasSubstr("| t_pipe (2) | adaptive | 64 | 1024 | 56 | 5.11 | 6.56 5.73 3.06 | 0 (0.0 %) "
-                    "| - | - | 2 (100.0 %) | 2.00 | 3.00 0.00 0.00 |"),
+          HasSubstr("| t_pipe (2) | adaptive | 64 | 1024 | 56 | 5.11 | 6.56 5.73 3.06 | 2 (100.0 "
+                    "%) | 4.00 | 3.00 0.00 0.00 | 0 (0.0 %) | - | - | 2 (100.0 %) | 2.00 | 3.00 "
+                    "0.00 0.00 |"),
           HasSubstr("| all (3) | adaptive | 64 | 1024 | 203 | 4.91 |"),
           HasSubstr("| all (3) | adaptive | 64 | 1024 | 0.68 | 0.31 0.35 0.59 | 2 (66.7 %) | 2.000 "
                     "| 3.00 0.00 0.00 | 3.000 |"),

@@ -41,6 +41,7 @@ class RefineParity : public test::Parity {
                                       scene_.object.radius_mm,
                                       tasks.size() == 2 ? 40 : 112);
       task.max_points = 300;
+      task.alignment.rim_reach_mm = 3.0;
       task.center_mm = scene_.object.center_mm;
       task.radius_mm = scene_.object.radius_mm;
       tasks.push_back(task);

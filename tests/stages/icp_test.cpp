@@ -141,6 +141,68 @@ TEST(IcpTest, PointsBehindNarrowThingsDoNotBorrowTheirNeighboursData) {
   EXPECT_LT(bench.vertexError(result.camera_from_object), kRefinedMm);
 }
 
+/// A plate of 80 x 60 mm that lies 2 mm above a table, with a corner under something.
+struct PlateBench {
+  Mesh mesh = test::plateMesh(80.0, 60.0);
+  Camera camera = test::pinholeCamera(320, 240, 600.0);
+  Pose truth{rotationFromVector({0.1, -0.15, 0.4}), {12.0, -8.0, 500.0}};
+  Image<float> scene;
+
+  PlateBench() {
+    DepthImage image{camera, {}};
+    Pose table = truth;
+    table.translation_mm += 2.0 * truth.rotation[2];
+    test::measure(image, test::plateMesh(900.0, 900.0), table);
+    test::measure(image, mesh, truth);
+    Pose above = truth;
+    above.translation_mm += truth.rotation * glm::dvec3(40.0, 30.0, -30.0);
+    test::measure(image, test::plateMesh(30.0, 30.0), above);
+    scene = image.depth_mm;
+  }
+  Pose shifted(const glm::dvec3& in_plane_mm) const {
+    Pose pose = truth;
+    pose.translation_mm += truth.rotation * in_plane_mm;
+    return pose;
+  }
+  /// How far the plate lies from where it is after a few rounds [mm].
+  double left(Pose pose, double rim_reach_mm) const {
+    IcpOptions options;
+    options.first_reach_mm = options.last_reach_mm = 1.0;
+    options.rim_reach_mm = rim_reach_mm;
+    options.slide = 0.001;
+    for (int round = 0; round < 8; ++round) {
+      const SurfaceWindow window = windowAround(camera, pose.translation_mm, 51.0, 1000);
+      const Image<SurfaceTexel> surface = host::renderSurface(mesh, camera, pose, window);
+      std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, pose, 900);
+      const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, pose, 900);
+      points.insert(points.end(), rim.begin(), rim.end());
+      pose =
+          host::icp(points, camera, scene, pose, {0.0, 0.0, 0.0}, 51.0, options).camera_from_object;
+    }
+    double farthest = 0.0;
+    for (const glm::vec3& corner : mesh.vertices) {
+      farthest =
+          std::max(farthest, glm::distance(pose * glm::dvec3(corner), truth * glm::dvec3(corner)));
+    }
+    return farthest;
+  }
+};
+
+TEST(IcpTest, RimsKeepAPlateFromSlidingInItsPlane) {
+  const PlateBench bench;
+  for (const glm::dvec3 shift : {glm::dvec3(3.0, 0.0, 0.0), {0.0, -3.0, 0.0}, {2.0, 2.0, 0.0}}) {
+    const Pose start = bench.shifted(shift);
+    EXPECT_LT(bench.left(start, 4.0), 0.4) << "half a pixel";
+    EXPECT_GT(bench.left(start, 0.0), 1.0) << "needs no rims: this test shows nothing";
+  }
+  EXPECT_LT(bench.left(bench.truth, 4.0), 0.4);
+}
+
+TEST(IcpTest, RimsBeyondTheirReachHaveNoSay) {
+  const PlateBench bench;
+  EXPECT_GT(bench.left(bench.shifted({6.0, 0.0, 0.0}), 2.0), 4.0);
+}
+
 TEST(IcpTest, WithoutPartnersThePoseIsKept) {
   const Bench bench;
   const Pose start = bench.displaced({0.01, 0.02, 0.0}, {1.0, 0.0, 0.0});

@@ -60,6 +60,49 @@ TEST(SurfacePointsTest, RenderedNormalsAreThoseOfTheFace) {
   }
 }
 
+/// A plate's rim is its border, wherever the camera looks from.
+TEST(SurfacePointsTest, RimLiesOnTheBorderAndLooksOutOfIt) {
+  constexpr double kHalfWidth = 40.0;
+  constexpr double kHalfHeight = 30.0;
+  const Mesh plate = test::plateMesh(2.0 * kHalfWidth, 2.0 * kHalfHeight);
+  for (const Camera& camera :
+       {test::pinholeCamera(320, 240, 600.0), test::parallelCamera(320, 240, 0.8)}) {
+    for (const glm::dvec3 turn : {glm::dvec3(0.0), {0.0, 0.0, 0.7}, {0.5, -0.3, 1.0}}) {
+      const Pose pose{rotationFromVector(turn), {25.0, -10.0, 500.0}};
+      const SurfaceWindow window = windowAround(camera, pose.translation_mm, 51.0, 1000);
+      const Image<SurfaceTexel> surface = host::renderSurface(plate, camera, pose, window);
+      const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, pose, 500);
+      const double pixel_mm = camera.pixelSpacingMm(500.0);
+      ASSERT_GT(rim.size(), 30U);
+      ASSERT_LT(rim.size(), 200U);
+      double off_mm = 0.0;
+      for (const SurfacePoint& point : rim) {
+        ASSERT_TRUE(point.rim);
+        const double right = std::abs(static_cast<double>(point.position_mm.x)) - kHalfWidth;
+        const double below = std::abs(static_cast<double>(point.position_mm.y)) - kHalfHeight;
+        ASSERT_LT(std::abs(std::max(right, below)), 1.5 * pixel_mm);
+        off_mm += std::max(right, below);
+        ASSERT_NEAR(glm::length(point.normal), 1.0, 1e-5);
+        ASSERT_NEAR(point.normal.z, 0.0, 1e-4) << "leaves the plate's plane";
+        const glm::vec2 side = right > below ? glm::vec2(point.position_mm.x, 0.0f)
+                                             : glm::vec2(0.0f, point.position_mm.y);
+        const bool corner = std::abs(right - below) < 4.0 * pixel_mm;
+        if (!corner) {
+          ASSERT_GT(glm::dot(glm::vec2(point.normal), side), 0.0f) << "leads back into the plate";
+        }
+      }
+      EXPECT_LT(std::abs(off_mm / static_cast<double>(rim.size())), 0.2 * pixel_mm)
+          << "a plate is seen larger or smaller than it is";
+    }
+  }
+}
+
+TEST(SurfacePointsTest, TheEndOfTheWindowIsNoRim) {
+  const Camera camera = test::pinholeCamera(64, 48, 60.0);
+  const Image<SurfaceTexel> wall(64, 48, SurfaceTexel(0.0f, 0.0f, -1.0f, 300.0f));
+  EXPECT_TRUE(rimOfSurface(wall, camera, test::wholeWindow(camera), {}, 100).empty());
+}
+
 TEST(SurfacePointsTest, PointsOfAViewLieOnThePart) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 20, 64, 31);
   host::renderReferences(object, {}, {});
@@ -91,6 +134,8 @@ TEST(SurfacePointsTest, AnEmptyViewOrSurfaceHasNoPoints) {
   EXPECT_TRUE(pointsOfSurface({}, camera, {}, {}, 100).empty());
   const Image<SurfaceTexel> nothing(32, 24, SurfaceTexel(0.0f));
   EXPECT_TRUE(pointsOfSurface(nothing, camera, test::wholeWindow(camera), {}, 100).empty());
+  EXPECT_TRUE(rimOfSurface({}, camera, {}, {}, 100).empty());
+  EXPECT_TRUE(rimOfSurface(nothing, camera, test::wholeWindow(camera), {}, 100).empty());
 }
 
 }  // namespace
