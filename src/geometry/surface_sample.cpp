@@ -21,8 +21,8 @@ Corners cornersOf(const Mesh& mesh, const glm::uvec3& triangle) {
 
 double fraction(double value) { return value - std::floor(value); }
 
-/// Diagonalises a symmetric matrix by Jacobi rotations: the columns of the result are its
-/// eigenvectors, `matrix` becomes diagonal.
+}  // namespace
+
 glm::dmat3 diagonalise(glm::dmat3& matrix) {
   constexpr int kSweeps = 12;
   glm::dmat3 axes(1.0);
@@ -40,8 +40,6 @@ glm::dmat3 diagonalise(glm::dmat3& matrix) {
   }
   return axes;
 }
-
-}  // namespace
 
 std::vector<glm::dvec3> surfaceSample(const Mesh& mesh, int count) {
   RP_CHECK(count >= 1, "surface sample: at least one point is needed");

@@ -12,6 +12,10 @@ namespace rangepose {
 /// of them is spread evenly, too. The same mesh always gives the same points.
 std::vector<glm::dvec3> surfaceSample(const Mesh& mesh, int count);
 
+/// Diagonalises a symmetric matrix by Jacobi rotations: the columns of the result are its
+/// eigenvectors, `matrix` becomes diagonal.
+glm::dmat3 diagonalise(glm::dmat3& matrix);
+
 struct AreaMoments {
   glm::dvec3 centroid_mm{0.0};  ///< of the area
   glm::dmat3 axes{1.0};         ///< columns: unit principal directions, right-handed

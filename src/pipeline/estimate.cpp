@@ -104,6 +104,23 @@ class Estimator {
     return pass;
   }
 
+  /// Aligns and checks turned copies of poses on all of the foreground; none that is known already.
+  std::vector<Candidate> alignTurned(std::vector<Candidate> copies,
+                                     const Image<std::uint8_t>& foreground,
+                                     const Selection& known) {
+    constexpr int kVerified = 2;  // of the copies of a pose
+    if (copies.empty()) return copies;
+    const ScopedTimer timer(result_.times, "turned copies");
+    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
+    const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
+    copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
+    std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
+    FineEffort effort = options_.effort(passes_ - 1).fine;
+    effort.rounds = effort.finalists = 1;
+    refineFinely(copies, database_, scene, effort);
+    return copies;
+  }
+
  private:
   /// The start points, in the camera frame [mm]; none near those in `tried`.
   std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
@@ -269,24 +286,26 @@ Estimate estimatePoses(const DepthImage& depth,
   }
   if (trace != nullptr) trace->foreground = foreground;
   Estimator estimator(depth, database, options, stages, result);
-  Selection selection(depth, database, result.noise_mm, options.min_score, stages);
+  Selection selection(depth, database, result.noise_mm, options.min_score);
   Image<std::uint8_t> rest = foreground;
   std::vector<Candidate> chosen;
   // Passes on what is left, until all its starts were tried before, or two found nothing.
   for (int fruitless = 0; fruitless < kFruitlessPasses;) {
     const Pass pass = estimator.onePass(rest, selection, trace);
     trace = nullptr;
-    const ScopedTimer timer(result.times, "selection");
-    if (options.max_poses == 1) {
-      if (!pass.checked.empty() && pass.checked.front().confidence >= options.min_score) {
-        chosen = {pass.checked.front()};
-      }
-      break;
+    std::vector<Candidate> copies;
+    {
+      const ScopedTimer timer(result.times, "selection");
+      selection.add(pass.checked);
+      copies = selection.turnedCopies();
     }
-    selection.add(pass.checked);
+    copies = estimator.alignTurned(std::move(copies), foreground, selection);
+    const ScopedTimer timer(result.times, "selection");
+    selection.add(copies);
     const std::size_t before = chosen.size();
     chosen = selection.choose();
-    if (pass.starts == 0 || static_cast<int>(chosen.size()) >= options.max_poses) break;
+    const bool enough = static_cast<int>(chosen.size()) >= options.max_poses;
+    if (pass.starts == 0 || enough || options.max_poses == 1) break;
     rest = foreground;
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;

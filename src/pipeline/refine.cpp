@@ -124,10 +124,9 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   constexpr int kFineIterations = 12;
   // Poses that are nearly right find their partners next to where they look.
   constexpr double kNearlyRight = 4.0;  // tolerances
-  // Faces alone leave a plate free to slide in its plane; where rims hold it, the pull towards the
-  // nearest points only slows it down.
+  // Faces alone leave a plate free to slide in its plane; where rims hold it, a pull towards the
+  // nearest points would only slow it down.
   constexpr double kRimReach = 0.05;  // of the diameter
-  constexpr double kSlide = 0.001;
   std::vector<RenderTask> tasks;
   for (const std::size_t i : moving) {
     const ReferenceObject& object = objectOf(candidates[i], database);
@@ -137,7 +136,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     task.max_points = fine.points;
     task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
     task.alignment.search_steps = reach_tolerances > kNearlyRight ? 2 : 1;
-    task.alignment.slide = kSlide;
+    task.alignment.slide = 0.0;
     task.alignment.rim_reach_mm = kRimReach * object.diameter_mm;
   }
   const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
@@ -179,8 +178,8 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
                   const FineEffort& effort) {
-  // Odds of e^-6: no long alignment makes such a pose right.
-  constexpr double kHopeless = -6.0;
+  // Odds of e^-3: no long alignment makes such a pose right.
+  constexpr double kHopeless = -3.0;
   refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);

@@ -4,28 +4,29 @@
 #include <cmath>
 #include <utility>
 
+#include "core/parallel.h"
 #include "pipeline/explained_pixels.h"
+#include "pipeline/turned.h"
 
 namespace rangepose {
 namespace {
 
-constexpr double kSame = 0.05;        // of the diameter
-constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
-constexpr double kFaint = 0.02;       // confidence below which a pose is nobody's rival
-constexpr double kRival = 0.5;        // of the pixels of the larger of two poses
+constexpr double kSame = 0.05;         // of the diameter
+constexpr double kMostShared = 0.25;   // of the pixels that a pose explains
+constexpr double kFaint = 0.02;        // confidence below which a pose is nobody's rival
+constexpr double kWorthTurning = 0.1;  // confidence
+constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
 
 }  // namespace
 
 Selection::Selection(const DepthImage& depth,
                      const ReferenceDatabase& database,
                      double noise_mm,
-                     double min_confidence,
-                     StageSet& stages)
+                     double min_confidence)
     : depth_(depth),
       database_(database),
       noise_mm_(noise_mm),
       min_confidence_(min_confidence),
-      stages_(stages),
       distances_(database.objects.begin(), database.objects.end()) {}
 
 const Selection::Entry* Selection::find(const Candidate& candidate) const {
@@ -40,13 +41,20 @@ const Selection::Entry* Selection::find(const Candidate& candidate) const {
 bool Selection::knows(const Candidate& candidate) const { return find(candidate) != nullptr; }
 
 void Selection::add(const std::vector<Candidate>& candidates) {
+  std::vector<Entry> added;
   for (const Candidate& candidate : candidates) {
-    if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
-    if (const Entry* known = find(candidate)) {
-      if (known->candidate.rank >= candidate.rank) continue;
+    if (candidate.confidence >= std::min(kFaint, min_confidence_)) added.push_back({candidate, {}});
+  }
+  parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      added[i].pixels = explainedPixels(added[i].candidate);
+  });
+  for (Entry& entry : added) {
+    if (const Entry* known = find(entry.candidate)) {
+      if (known->candidate.rank >= entry.candidate.rank) continue;
       entries_.erase(entries_.begin() + (known - entries_.data()));
     }
-    entries_.push_back({candidate, explainedPixels(candidate)});
+    entries_.push_back(std::move(entry));
   }
   std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
     return a.candidate.rank > b.candidate.rank;
@@ -59,7 +67,7 @@ std::vector<std::int32_t> Selection::explainedPixels(const Candidate& candidate)
   const SurfaceWindow window =
       windowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, all);
   const Image<SurfaceTexel> surface =
-      stages_.renderSurface(object.mesh, depth_.camera, candidate.pose, window);
+      host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
   return rangepose::explainedPixels(surface, window, depth_, same_mm);
 }
@@ -110,6 +118,23 @@ std::vector<Candidate> Selection::choose() const {
         return a.confidence > b.confidence;
       });
   return candidates;
+}
+
+std::vector<Candidate> Selection::turnedCopies() {
+  std::vector<Candidate> copies;
+  int window = 0;
+  for (Entry& entry : entries_) {
+    if (entry.turned || entry.candidate.confidence < kWorthTurning) continue;
+    entry.turned = true;
+    const auto object = static_cast<std::size_t>(entry.candidate.object);
+    for (Candidate& copy : rangepose::turnedCopies(
+             entry.candidate, entry.pixels, depth_, database_.objects[object])) {
+      copy.window = window;
+      copies.push_back(copy);
+    }
+    ++window;
+  }
+  return copies;
 }
 
 void Selection::takeOut(Image<std::uint8_t>& mask) const {

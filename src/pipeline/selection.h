@@ -19,8 +19,7 @@ class Selection {
   Selection(const DepthImage& depth,
             const ReferenceDatabase& database,
             double noise_mm,
-            double min_confidence,
-            StageSet& stages);
+            double min_confidence);
 
   /// Whether a pose like this one, symmetric copies included, is there already.
   bool knows(const Candidate& candidate) const;
@@ -31,6 +30,9 @@ class Selection {
   /// that explain the same surface: where two are as good as each other, neither is sure. Only
   /// those whose confidence is large enough, the surest first.
   std::vector<Candidate> choose() const;
+  /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
+  /// aligned and checked; those of a pose have a `window` of their own.
+  std::vector<Candidate> turnedCopies();
   /// Takes what poses explain, with or without rivals, out of the mask of pixels.
   void takeOut(Image<std::uint8_t>& mask) const;
 
@@ -38,6 +40,7 @@ class Selection {
   struct Entry {
     Candidate candidate;
     std::vector<std::int32_t> pixels;  ///< explained ones, by index
+    bool turned = false;               ///< whether its turned copies were given away
   };
   const Entry* find(const Candidate& candidate) const;
   std::vector<std::int32_t> explainedPixels(const Candidate& candidate) const;
@@ -50,7 +53,6 @@ class Selection {
   const ReferenceDatabase& database_;
   double noise_mm_;
   double min_confidence_;
-  StageSet& stages_;
   std::vector<PoseDistance> distances_;  ///< by object
   std::vector<Entry> entries_;           ///< surest first
 };

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "stages/surface.h"
@@ -113,9 +114,53 @@ class DepthPlane {
   double offset_;
 };
 
-double edgeFunction(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
+/// Positive to the inner side of an edge of a triangle, linear in the pixel.
+struct EdgeLine {
+  double by_x;
+  double by_y;
+  double at_origin;
+
+  EdgeLine(const glm::dvec2& from, const glm::dvec2& to, double sign)
+      : by_x(sign * (from.y - to.y)),
+        by_y(sign * (to.x - from.x)),
+        at_origin(-(by_x * from.x + by_y * from.y)) {}
+  double at(double x, double y) const { return by_x * x + by_y * y + at_origin; }
+};
+
+/// The face that a triangle lies in, for its pixels. Made when the first of them is found: most
+/// triangles of a fine mesh have none.
+class Face {
+ public:
+  Face(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Camera& camera)
+      : normal_(unitNormal(a, b, c, camera)),
+        plane_(camera, normal_, a.point_mm),
+        low_z_(std::min({a.point_mm.z, b.point_mm.z, c.point_mm.z})),
+        high_z_(std::max({a.point_mm.z, b.point_mm.z, c.point_mm.z})) {}
+
+  /// A face seen edge on has no stable plane: its corners bound the depth.
+  float depth(double u, double v) const {
+    const double z = plane_.depth(u, v);
+    return static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z_, high_z_) : low_z_);
+  }
+  SurfaceTexel texel(float depth) const { return {glm::vec3(normal_), depth}; }
+
+ private:
+  static glm::dvec3 unitNormal(const ScreenVertex& a,
+                               const ScreenVertex& b,
+                               const ScreenVertex& c,
+                               const Camera& camera) {
+    glm::dvec3 normal = glm::cross(b.point_mm - a.point_mm, c.point_mm - a.point_mm);
+    normal /= glm::length(normal);
+    const bool away =
+        glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : a.point_mm) > 0.0;
+    return away ? -normal : normal;
+  }
+
+  glm::dvec3 normal_;
+  DepthPlane plane_;
+  double low_z_;
+  double high_z_;
+};
 
 void fillTriangle(const ScreenVertex& a,
                   const ScreenVertex& b,
@@ -123,6 +168,8 @@ void fillTriangle(const ScreenVertex& a,
                   const Camera& camera,
                   const SurfaceWindow& window,
                   Image<SurfaceTexel>& surface) {
+  // Pixels on an edge belong to both of its triangles: rounding leaves no gap [px^2].
+  constexpr double kOnEdge = -1e-9;
   // Most triangles of a fine mesh lie between pixel centres.
   const int x0 = std::max(0, std::min({a.first.x, b.first.x, c.first.x}));
   const int x1 = std::min(window.width - 1, std::max({a.last.x, b.last.x, c.last.x}));
@@ -130,33 +177,23 @@ void fillTriangle(const ScreenVertex& a,
   const int y0 = std::max(0, std::min({a.first.y, b.first.y, c.first.y}));
   const int y1 = std::min(window.height - 1, std::max({a.last.y, b.last.y, c.last.y}));
   if (y0 > y1) return;
-  const double area = edgeFunction(a.pixel, b.pixel, c.pixel);
+  const glm::dvec2 ab = b.pixel - a.pixel;
+  const glm::dvec2 ac = c.pixel - a.pixel;
+  const double area = ab.x * ac.y - ab.y * ac.x;
   if (area == 0.0) return;
-  glm::dvec3 normal = glm::cross(b.point_mm - a.point_mm, c.point_mm - a.point_mm);
-  const double length = glm::length(normal);
-  if (length == 0.0) return;
-  normal /= length;
-  if (glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : a.point_mm) > 0.0) {
-    normal = -normal;
-  }
-  const DepthPlane plane(camera, normal, a.point_mm);
-  const double low_z = std::min({a.point_mm.z, b.point_mm.z, c.point_mm.z});
-  const double high_z = std::max({a.point_mm.z, b.point_mm.z, c.point_mm.z});
   const double sign = area > 0.0 ? 1.0 : -1.0;
+  const EdgeLine first(a.pixel, b.pixel, sign);
+  const EdgeLine second(b.pixel, c.pixel, sign);
+  const EdgeLine third(c.pixel, a.pixel, sign);
+  std::optional<Face> face;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      const glm::dvec2 p(x, y);
-      if (sign * edgeFunction(a.pixel, b.pixel, p) < 0.0 ||
-          sign * edgeFunction(b.pixel, c.pixel, p) < 0.0 ||
-          sign * edgeFunction(c.pixel, a.pixel, p) < 0.0) {
-        continue;
-      }
-      // A face seen edge on has no stable plane: its corners bound the depth.
-      const double z = plane.depth(window.x0 + x * window.step, window.y0 + y * window.step);
-      const float depth =
-          static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z, high_z) : low_z);
+      const double inside = std::min({first.at(x, y), second.at(x, y), third.at(x, y)});
+      if (inside < kOnEdge) continue;
+      if (!face) face.emplace(a, b, c, camera);
+      const float depth = face->depth(window.x0 + x * window.step, window.y0 + y * window.step);
       SurfaceTexel& texel = surface.at(x, y);
-      if (texel.w == 0.0f || depth < texel.w) texel = SurfaceTexel(glm::vec3(normal), depth);
+      if (texel.w == 0.0f || depth < texel.w) texel = face->texel(depth);
     }
   }
 }

@@ -55,13 +55,12 @@ class SelectionTest : public testing::Test {
   ReferenceDatabase database_{{object_}};
   DepthImage image_;
   Image<std::uint8_t> foreground_;
-  std::unique_ptr<StageSet> stages_ = makeHostStages();
 };
 
 TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
   const double all = left();
   ASSERT_GT(all, 0.0);
-  Selection selection(image_, database_, 0.1, 0.5, *stages_);
+  Selection selection(image_, database_, 0.1, 0.5);
   selection.add({candidateAt(-60.0, 1.0)});
   selection.takeOut(foreground_);
   EXPECT_NEAR(left(), 0.5 * all, 0.02 * all);
@@ -73,7 +72,7 @@ TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
 
 TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
   for (const bool surer_first : {true, false}) {
-    Selection selection(image_, database_, 0.1, 0.5, *stages_);
+    Selection selection(image_, database_, 0.1, 0.5);
     const Candidate right = candidateAt(-60.0, 3.0);
     // Shifted by more than what counts as the same pose, on the same surface.
     const Candidate shifted = candidateAt(-57.0, 1.0);
@@ -87,7 +86,7 @@ TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
 }
 
 TEST_F(SelectionTest, OfLikePosesTheSurestStays) {
-  Selection selection(image_, database_, 0.1, 0.5, *stages_);
+  Selection selection(image_, database_, 0.1, 0.5);
   selection.add({candidateAt(-60.0, 1.0), candidateAt(-60.1, 2.0), candidateAt(-60.2, 0.5)});
   ASSERT_EQ(selection.choose().size(), 1u);
   EXPECT_EQ(selection.choose()[0].rank, 2.0);
@@ -95,7 +94,7 @@ TEST_F(SelectionTest, OfLikePosesTheSurestStays) {
 }
 
 TEST_F(SelectionTest, RivalsShareTheConfidence) {
-  Selection selection(image_, database_, 0.1, 0.4, *stages_);
+  Selection selection(image_, database_, 0.1, 0.4);
   const Candidate first = candidateAt(-60.0, 2.0);
   // Turned about the line of sight: another pose that explains much of the same surface.
   Candidate second = candidateAt(-60.0, 1.9);
@@ -109,12 +108,27 @@ TEST_F(SelectionTest, RivalsShareTheConfidence) {
 }
 
 TEST_F(SelectionTest, UnsurePosesClaimNothing) {
-  Selection selection(image_, database_, 0.1, 0.5, *stages_);
+  Selection selection(image_, database_, 0.1, 0.5);
   const double before = left();
   selection.add({candidateAt(-60.0, -1.0)});
   EXPECT_TRUE(selection.choose().empty());
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), before);
+}
+
+TEST_F(SelectionTest, EachPoseIsTurnedOnceAndHopelessOnesNever) {
+  Selection selection(image_, database_, 0.1, 0.5);
+  selection.add({candidateAt(-60.0, 2.0), candidateAt(60.0, -3.5)});
+  const std::vector<Candidate> copies = selection.turnedCopies();
+  ASSERT_FALSE(copies.empty());
+  for (const Candidate& copy : copies) {
+    EXPECT_EQ(copy.window, 0);
+    const double x_mm = (copy.pose * object_.center_mm).x;
+    EXPECT_LT(x_mm, 0.0) << "the other pose is as good as wrong";
+  }
+  EXPECT_TRUE(selection.turnedCopies().empty());
+  selection.add({candidateAt(60.0, 1.0)});
+  EXPECT_EQ(selection.turnedCopies().size(), copies.size());
 }
 
 }  // namespace

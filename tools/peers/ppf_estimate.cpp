@@ -84,8 +84,7 @@ std::vector<Candidate> PpfEstimator::estimate(const DepthImage& depth,
     const std::vector<Candidate> own = search(scene, object);
     poses.insert(poses.end(), own.begin(), own.end());
   }
-  const std::unique_ptr<StageSet> stages = makeHostStages();
-  Selection selection(depth, database_, noise_mm, options_.min_score, *stages);
+  Selection selection(depth, database_, noise_mm, options_.min_score);
   selection.add(poses);
   return selection.choose();
 }
