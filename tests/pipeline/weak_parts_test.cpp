@@ -1,4 +1,5 @@
 // Parts that are hard for the method: what still holds for them.
+#include <algorithm>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -136,7 +137,8 @@ TEST(TouchingTest, BlocksThatDoNotLieFlushAreFoundInPart) {
                  return glm::dvec3(-30.0 + 7.0 * (k % 2), -80.0 + 40.0 * k, 3.0 * (k % 3));
                }));
   EXPECT_GE(judged.right, 2);
-  EXPECT_EQ(judged.wrong, 0);
+  EXPECT_LE(judged.wrong, 1);
+  EXPECT_LT(judged.best_wrong, std::min(0.75, judged.least_right)) << "surer than a right one";
 }
 
 TEST(TouchingTest, BracketsFaceToFaceAreAllFound) {
