@@ -5,15 +5,19 @@
 #include <utility>
 
 #include "core/parallel.h"
+#include "pipeline/candidates.h"
 #include "pipeline/explained_pixels.h"
 #include "pipeline/turned.h"
 
 namespace rangepose {
 namespace {
 
-constexpr double kSame = 0.05;         // of the diameter
-constexpr double kMostShared = 0.25;   // of the pixels that a pose explains
-constexpr double kFaint = 0.02;        // confidence below which a pose is nobody's rival
+constexpr double kSame = 0.05;        // of the diameter
+constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
+constexpr double kFaint = 0.02;       // confidence below which a pose is nobody's rival
+// Log odds for a mean visible area. Each of two poses for the same surface may look right by
+// itself; what decides between them is the surface that one explains and the other does not.
+constexpr double kFit = 100.0;
 constexpr double kWorthTurning = 0.1;  // confidence
 constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
 
@@ -47,7 +51,7 @@ void Selection::add(const std::vector<Candidate>& candidates) {
   }
   parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      added[i].pixels = explainedPixels(added[i].candidate);
+      describe(added[i]);
   });
   for (Entry& entry : added) {
     if (const Entry* known = find(entry.candidate)) {
@@ -61,7 +65,8 @@ void Selection::add(const std::vector<Candidate>& candidates) {
   });
 }
 
-std::vector<std::int32_t> Selection::explainedPixels(const Candidate& candidate) const {
+void Selection::describe(Entry& entry) const {
+  const Candidate& candidate = entry.candidate;
   const ReferenceObject& object = database_.objects[static_cast<std::size_t>(candidate.object)];
   const int all = std::max(depth_.camera.width, depth_.camera.height);
   const SurfaceWindow window =
@@ -69,46 +74,61 @@ std::vector<std::int32_t> Selection::explainedPixels(const Candidate& candidate)
   const Image<SurfaceTexel> surface =
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
-  return rangepose::explainedPixels(surface, window, depth_, same_mm);
+  entry.pixels = explainedPixels(surface, window, depth_, same_mm);
+  const CheckResult& check = candidate.check;
+  if (!(check.explained > 0.0)) return;
+  entry.fit =
+      check.explained_mm2 * (1.0 - check.contradicted / check.explained) / meanVisibleArea(object);
 }
+
+double Selection::preference(const Entry& entry) { return entry.candidate.rank + kFit * entry.fit; }
 
 std::vector<const Selection::Entry*> Selection::chosen() const {
   std::vector<const Entry*> entries;
   std::vector<std::uint8_t> taken(depth_.depth_mm.size(), 0);
-  for (const Entry& entry : entries_) {
-    if (!(entry.candidate.confidence >= min_confidence_)) continue;
+  const auto isFree = [&](const Entry& entry) {
     const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
       return taken[static_cast<std::size_t>(at)] != 0;
     });
-    if (static_cast<double>(shared) > kMostShared * static_cast<double>(entry.pixels.size()))
-      continue;
-    for (const std::int32_t at : entry.pixels) taken[static_cast<std::size_t>(at)] = 1;
-    entries.push_back(&entry);
+    return static_cast<double>(shared) <= kMostShared * static_cast<double>(entry.pixels.size());
+  };
+  for (const Entry& entry : entries_) {
+    if (!(entry.candidate.confidence >= min_confidence_) || !isFree(entry)) continue;
+    const Entry* best = &entry;
+    for (const Entry* rival : rivalsOf(entry)) {
+      if (preference(*rival) > preference(*best) && isFree(*rival)) best = rival;
+    }
+    for (const std::int32_t at : best->pixels) taken[static_cast<std::size_t>(at)] = 1;
+    entries.push_back(best);
   }
   return entries;
 }
 
-double Selection::rivalry(const Entry& entry) const {
+std::vector<const Selection::Entry*> Selection::rivalsOf(const Entry& entry) const {
   std::vector<std::uint8_t> own(depth_.depth_mm.size(), 0);
   for (const std::int32_t at : entry.pixels) own[static_cast<std::size_t>(at)] = 1;
-  double odds = 0.0;
+  std::vector<const Entry*> rivals;
   for (const Entry& other : entries_) {
     if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
     const auto shared = std::count_if(other.pixels.begin(), other.pixels.end(), [&](int at) {
       return own[static_cast<std::size_t>(at)] != 0;
     });
     const auto larger = std::max(entry.pixels.size(), other.pixels.size());
-    if (static_cast<double>(shared) < kRival * static_cast<double>(larger)) continue;
-    odds += std::exp(other.candidate.rank);
+    if (static_cast<double>(shared) >= kRival * static_cast<double>(larger))
+      rivals.push_back(&other);
   }
-  return odds;
+  return rivals;
 }
 
 std::vector<Candidate> Selection::choose() const {
   std::vector<Candidate> candidates;
   for (const Entry* entry : chosen()) {
     const double odds = std::exp(entry->candidate.rank);
-    const double confidence = odds / (1.0 + odds + rivalry(*entry));
+    double all = 1.0 + odds;
+    for (const Entry* rival : rivalsOf(*entry)) {
+      all += odds * std::exp(preference(*rival) - preference(*entry));
+    }
+    const double confidence = odds / all;
     if (!(confidence >= min_confidence_)) continue;
     candidates.push_back(entry->candidate);
     candidates.back().confidence = confidence;

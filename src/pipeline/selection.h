@@ -25,10 +25,10 @@ class Selection {
   bool knows(const Candidate& candidate) const;
   /// Adds checked poses, also unsure ones: they may be rivals. Of like ones the surest stays.
   void add(const std::vector<Candidate>& candidates);
-  /// The surest pose, then the surest of those that share little of what they explain with one
-  /// before, and so on. The confidence of each is its share of the odds of all poses of its object
-  /// that explain the same surface: where two are as good as each other, neither is sure. Only
-  /// those whose confidence is large enough, the surest first.
+  /// The best pose for the surface of the surest one, then of the surest that shares little of what
+  /// it explains with one before, and so on. The confidence of each is its share of the odds of all
+  /// poses of its object that explain the same surface: where two are as good as each other,
+  /// neither is sure. Only those whose confidence is large enough, the surest first.
   std::vector<Candidate> choose() const;
   /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
   /// aligned and checked; those of a pose have a `window` of their own.
@@ -40,14 +40,18 @@ class Selection {
   struct Entry {
     Candidate candidate;
     std::vector<std::int32_t> pixels;  ///< explained ones, by index
-    bool turned = false;               ///< whether its turned copies were given away
+    double fit = 0.0;     ///< surface explained less surface contradicted [mean visible areas]
+    bool turned = false;  ///< whether its turned copies were given away
   };
   const Entry* find(const Candidate& candidate) const;
-  std::vector<std::int32_t> explainedPixels(const Candidate& candidate) const;
-  /// Those that share no surface, the surest first.
+  /// Fills in what follows from the candidate and the image.
+  void describe(Entry& entry) const;
+  /// Log odds among poses for the same surface.
+  static double preference(const Entry& entry);
+  /// Those that share no surface, in the order of the surest pose for it.
   std::vector<const Entry*> chosen() const;
-  /// Sum of the odds of the other poses of the same object for the same surface.
-  double rivalry(const Entry& entry) const;
+  /// The other poses of the same object for the same surface.
+  std::vector<const Entry*> rivalsOf(const Entry& entry) const;
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;

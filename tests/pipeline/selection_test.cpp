@@ -9,6 +9,7 @@
 
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
+#include "pipeline/candidates.h"
 #include "pipeline/confidence.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
@@ -105,6 +106,28 @@ TEST_F(SelectionTest, RivalsShareTheConfidence) {
   ASSERT_EQ(chosen.size(), 1u);
   EXPECT_NEAR(chosen[0].confidence, std::exp(2.0) / (1.0 + std::exp(2.0) + std::exp(1.9)), 1e-12)
       << "either may be the right one, which a robot must know before it picks";
+}
+
+TEST_F(SelectionTest, OfRivalsTheOneThatExplainsMoreWins) {
+  const double mean_mm2 = meanVisibleArea(object_);
+  const auto explaining = [&](Candidate candidate, double share, double contradicted) {
+    candidate.check.explained = 0.9;
+    candidate.check.contradicted = contradicted;
+    candidate.check.explained_mm2 = share * mean_mm2;
+    return candidate;
+  };
+  Candidate turned = candidateAt(-60.0, 2.2);
+  turned.pose.rotation = rotationFromVector({0.0, 0.0, 0.3}) * turned.pose.rotation;
+  turned.pose.translation_mm += partAt(-60.0) * object_.center_mm - turned.pose * object_.center_mm;
+  for (const bool by_area : {true, false}) {
+    Selection selection(image_, database_, 0.1, 0.5);
+    selection.add({explaining(turned, by_area ? 0.70 : 0.8, by_area ? 0.0 : 0.09),
+                   explaining(candidateAt(-60.0, 2.0), 0.8, 0.0)});
+    const std::vector<Candidate> chosen = selection.choose();
+    ASSERT_EQ(chosen.size(), 1u) << "a part in full view is lost to a worse pose of it";
+    EXPECT_EQ(chosen[0].rank, 2.0);
+    EXPECT_NEAR(chosen[0].confidence, probabilityOf(2.0), 0.01);
+  }
 }
 
 TEST_F(SelectionTest, UnsurePosesClaimNothing) {

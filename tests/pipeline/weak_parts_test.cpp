@@ -1,7 +1,7 @@
 // Parts that are hard for the method: what still holds for them.
-#include <algorithm>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
