@@ -11,6 +11,7 @@
 #include "geometry/orientation_grid.h"
 #include "pipeline/candidates.h"
 #include "pipeline/confidence.h"
+#include "stages/reference_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
 
@@ -20,6 +21,8 @@ namespace {
 class SelectionTest : public testing::Test {
  protected:
   SelectionTest() {
+    host::renderReferences(object_, channelOptionsFor(64), {});
+    database_.objects = {object_};
     image_.camera = test::pinholeCamera(320, 240, 300.0);
     image_.depth_mm = Image<float>(320, 240, 0.0f);
     for (const double x : {-60.0, 60.0}) test::measure(image_, object_.mesh, partAt(x));
@@ -53,7 +56,7 @@ class SelectionTest : public testing::Test {
 
   ReferenceObject object_ = describeObject(
       test::meshOf(test::bracketBoxes()), 1, 64, uniformRotations(1), channelOptionsFor(64));
-  ReferenceDatabase database_{{object_}};
+  ReferenceDatabase database_;
   DepthImage image_;
   Image<std::uint8_t> foreground_;
 };
