@@ -101,6 +101,18 @@ TEST_F(BuildTest, SymmetriesOfModelsInfoComeFirst) {
   EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C2 \\(models_info.json\\)\n"));
 }
 
+TEST_F(BuildTest, SymmetriesThatModelsInfoForgetsAreNamed) {
+  makeBopSet();
+  write("set/models/models_info.json", R"({"7": {"diameter": 62.6}})");
+  const RunResult result = buildBopSet();
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(
+      result.err,
+      ContainsRegex("^rangepose: warning: [^\n]*models_info.json names no symmetry, but the "
+                    "mesh has C6[^\n]*\n$"))
+      << "poses that are as good as each other would share their score, and none be reported";
+}
+
 TEST_F(BuildTest, OldDatabaseSurvivesAFailure) {
   write("out.rpdb", "precious");
   const std::string bad = write("bad.ply", "ply\nformat ascii 1.0\nend_header\n").string();

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "geometry/orientation_grid.h"
+#include "geometry/symmetry.h"
 #include "gles/references_gles.h"
 #include "gles/stage_set_gles.h"
 #include "io/camera_file.h"
@@ -62,6 +63,7 @@ Fixture::Views& Fixture::views(int count) {
   const ChannelOptions options = channelOptionsFor(kSizePx);
   made->database.objects.push_back(
       describeObject(mesh(), 1, kSizePx, uniformRotations(count), options));
+  made->database.objects.front().symmetries = findSymmetries(mesh());
   if (context_) {
     gles::renderReferences(*context_, made->database.objects.front(), options);
   } else {

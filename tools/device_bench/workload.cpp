@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/orientation_grid.h"
+#include "geometry/symmetry.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
 #include "sim/heap.h"
@@ -31,6 +32,7 @@ Workload::Workload(int views, int starts) {
   depth = heapOf(mesh);
   const ChannelOptions channels = channelOptionsFor(kSizePx);
   database.objects.push_back(describeObject(mesh, 1, kSizePx, uniformRotations(views), channels));
+  database.objects.front().symmetries = findSymmetries(mesh);
   host::renderReferences(database.objects.front(), channels, {});
   options.starts = starts;
   const std::unique_ptr<StageSet> host = makeHostStages();

@@ -116,7 +116,13 @@ class Builder {
     const auto begin = std::chrono::steady_clock::now();
     Mesh mesh = readMesh(file.path, parseLengthUnit(arguments_.unit));
     const ChannelOptions options = channelOptionsFor(arguments_.size);
-    const Symmetries symmetries = file.symmetries ? *file.symmetries : findSymmetries(mesh);
+    const Symmetries found = findSymmetries(mesh);
+    const Symmetries symmetries = file.symmetries ? *file.symmetries : found;
+    if (symmetries.none() && !found.none()) {
+      printWarning(file.path.string() + ": models_info.json names no symmetry, but the mesh has " +
+                   symmetryName(found) +
+                   "; poses that look the same will share their score, unless it is added there");
+    }
     const ChosenViews chosen = chooseViews(request_, file.path, mesh, symmetries);
     if (!chosen.note.empty()) notes_.push_back(chosen.note);
     ReferenceObject object =
