@@ -13,29 +13,16 @@
 namespace rangepose {
 namespace {
 
-using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
-
-ViewPoints fewPointsOfViews(const ReferenceObject& object) {
-  constexpr int kPoints = 40;
-  constexpr int kViewsPerPiece = 64;
-  ViewPoints points(object.views.size());
-  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
-    for (int view = begin; view < end; ++view)
-      points[static_cast<std::size_t>(view)] = pointsOfView(object, view, kPoints);
-  });
-  return points;
-}
-
 /// Judges rough poses by a few points of their views against the depth image. Unlike Eq. 1 it sees
 /// the difference between surface that is hidden and surface that is not there, which decides on
 /// parts that are partly covered.
 void judgeRoughly(std::vector<Candidate>& candidates,
                   const ReferenceObject& object,
-                  const ViewPoints& points,
                   const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
   std::vector<JudgeTask> tasks;
   for (const Candidate& candidate : candidates) {
+    const ViewPoints& points = scene.few_points[static_cast<std::size_t>(candidate.object)];
     const auto view = static_cast<std::size_t>(candidate.view);
     tasks.push_back({&points[view], candidate.pose, visibleArea(object, candidate.view), options});
   }
@@ -133,13 +120,26 @@ double toleranceFor(const ReferenceObject& object, double noise_mm) {
   return std::max(object.finerIfThin(0.02 * object.diameter_mm), 3.0 * noise_mm);
 }
 
+std::vector<ViewPoints> fewPointsOfViews(const ReferenceDatabase& database) {
+  constexpr int kPoints = 40;
+  constexpr int kViewsPerPiece = 64;
+  std::vector<ViewPoints> points;
+  for (const ReferenceObject& object : database.objects) {
+    ViewPoints& own = points.emplace_back(object.views.size());
+    parallelFor(static_cast<int>(own.size()), kViewsPerPiece, [&](int begin, int end) {
+      for (int view = begin; view < end; ++view)
+        own[static_cast<std::size_t>(view)] = pointsOfView(object, view, kPoints);
+    });
+  }
+  return points;
+}
+
 std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       int object_index,
                                       const std::vector<Hypothesis>& hypotheses,
                                       const std::vector<OrthoCamera>& cameras,
                                       const RefineScene& scene,
                                       int count) {
-  const ViewPoints points = fewPointsOfViews(object);
   std::vector<Candidate> best;
   for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
     std::vector<Candidate> own;
@@ -148,7 +148,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
       const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
       own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
     }
-    judgeRoughly(own, object, points, scene);
+    judgeRoughly(own, object, scene);
     const Order by_error = ordered(
         own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
     const Order by_rank =

@@ -55,6 +55,7 @@ class Estimator {
         options_(options),
         stages_(stages),
         result_(result),
+        few_points_(fewPointsOfViews(database)),
         tried_(database.objects.size()) {}
 
   /// Sect. 5 to 7 on what is left of the foreground, from starts that were not tried before.
@@ -67,7 +68,7 @@ class Estimator {
     if (passes_ == 1) tried_.assign(database_.objects.size(), {});
     ++passes_;
     const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
-    const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
+    const RefineScene scene{depth_, *resident, result_.noise_mm, few_points_, stages_};
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
@@ -112,7 +113,7 @@ class Estimator {
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
     const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
-    const RefineScene scene{depth_, *resident, result_.noise_mm, stages_};
+    const RefineScene scene{depth_, *resident, result_.noise_mm, few_points_, stages_};
     copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -220,6 +221,7 @@ class Estimator {
   const EstimateOptions& options_;
   StageSet& stages_;
   Estimate& result_;
+  std::vector<ViewPoints> few_points_;
   int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
 };

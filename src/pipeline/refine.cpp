@@ -1,6 +1,7 @@
 #include "pipeline/refine.h"
 
 #include <algorithm>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -39,9 +40,8 @@ void setVerdicts(std::vector<Candidate>& candidates,
   }
 }
 
-/// One round of alignment with the points of the candidates' own views.
+/// One round of alignment with points of the candidates' own views.
 struct CoarseRound {
-  int points;
   int iterations;
   int search_steps;
   double first_reach;      ///< share of the diameter
@@ -61,11 +61,13 @@ Points pointsOfViews(const std::vector<Candidate>& candidates,
   return points;
 }
 
+using PointsOf = std::function<const std::vector<SurfacePoint>*(std::size_t candidate)>;
+
 void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
+                    const PointsOf& points,
                     const CoarseRound& round) {
-  const Points points = pointsOfViews(candidates, database, round.points);
   std::vector<AlignTask> alignments;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
@@ -74,14 +76,14 @@ void alignWithViews(std::vector<Candidate>& candidates,
                                     round.iterations);
     options.search_steps = round.search_steps;
     alignments.push_back(
-        {&points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
+        {points(i), candidates[i].pose, object.center_mm, object.radius_mm, options});
   }
   const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
   std::vector<JudgeTask> tasks;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     candidates[i].pose = aligned[i].camera_from_object;
-    tasks.push_back({&points[i],
+    tasks.push_back({points(i),
                      candidates[i].pose,
                      visibleArea(object, candidates[i].view),
                      checkOptionsFor(object, scene.noise_mm)});
@@ -96,12 +98,19 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{60, 8, 1, 0.20, 2.0};
-  constexpr CoarseRound kFew{220, 8, 2, 0.06, 1.5};
+  constexpr CoarseRound kMany{8, 1, 0.20, 2.0};
+  constexpr CoarseRound kFew{8, 2, 0.06, 1.5};
+  constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;
-  alignWithViews(candidates, database, scene, kMany);
+  const PointsOf few = [&](std::size_t i) {
+    const ViewPoints& of_object = scene.few_points[static_cast<std::size_t>(candidates[i].object)];
+    return &of_object[static_cast<std::size_t>(candidates[i].view)];
+  };
+  alignWithViews(candidates, database, scene, few, kMany);
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
-  alignWithViews(candidates, database, scene, kFew);
+  const Points more = pointsOfViews(candidates, database, kPoints);
+  alignWithViews(
+      candidates, database, scene, [&](std::size_t i) { return &more[i]; }, kFew);
   return bestDistinct(std::move(candidates), database, count);
 }
 
