@@ -7,7 +7,7 @@
 // - Its clustering compares angles of rotations, not rotations, and with a default limit that all
 //   pass; poses of one cluster are averaged. It is turned off by limits that no pose passes.
 // - Angles are counted over two turns, so that a pose's turn about a normal is rounded to 18
-//   degrees for 40 angles: a pose is a start for ICP, not an answer.
+//   degrees for 40 angles (24 for 30): a pose is a start for ICP, not an answer.
 // - Learning takes time with the square of the number of equal pairs, minutes for a few thousand
 //   points of a turned part: hence a limit to their number.
 #pragma once
@@ -26,7 +26,7 @@ struct PpfOptions {
   double spacing = 0.05;         ///< of the points of model and scene [share of the diameter]
   int most_points = 700;         ///< of the model; with more of them the spacing grows
   double distance_step = 0.05;   ///< of distances of pairs [share of the box's diagonal]
-  int angles = 40;               ///< steps of a full turn
+  int angles = 30;               ///< steps of a full turn
   double reference_share = 0.2;  ///< of a crop's points that vote
 };
 

@@ -198,7 +198,10 @@ void declareSearch(CLI::App& command, EstimateArguments& arguments) {
       "--all", arguments.all, "All visible parts, at most " + std::to_string(kAllPoses));
   command.add_option("--max-poses", arguments.max_poses, "At most so many poses")
       ->check(CLI::Range(1, 10000));
-  command.add_option("--min-score", arguments.options.min_score, "Poses less likely to be right are not reported")
+  command
+      .add_option("--min-score",
+                  arguments.options.min_score,
+                  "Poses less likely to be right are not reported")
       ->check(shareValidator())
       ->capture_default_str();
   command
