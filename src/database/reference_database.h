@@ -21,6 +21,9 @@ struct ReferenceDatabase {
 /// px, 1..65536).
 ///
 /// The bounding sphere fills the tile but for a margin of kTileMarginPx, so no view is cut off.
+///
+/// Its symmetries are left empty: set them (findSymmetries), or poses that are the same by symmetry
+/// compete with each other and share their confidence.
 ReferenceObject describeObject(const Mesh& mesh,
                                int id,
                                int size_px,

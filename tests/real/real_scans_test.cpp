@@ -15,6 +15,7 @@
 
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
+#include "geometry/symmetry.h"
 #include "io/camera_file.h"
 #include "io/depth_file.h"
 #include "io/mesh_file.h"
@@ -44,6 +45,7 @@ class RealScansTest : public ::testing::Test {
                                               kSize,
                                               uniformRotations(1024),
                                               options));
+    database.objects.front().symmetries = findSymmetries(database.objects.front().mesh);
     host::renderReferences(database.objects.front(), options, {});
     return database;
   }
