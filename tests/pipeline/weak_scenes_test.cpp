@@ -144,12 +144,11 @@ TEST(MissingBinBoxTest, FindsWhatIsFoundWithIt) {
     EXPECT_GE(with.right, 4);
     EXPECT_GE(without.right, with.right - 1);
     EXPECT_LE(without.wrong, with.wrong + 2);
-    EXPECT_LT(without.best_wrong, 0.75) << "walls are taken for parts";
+    EXPECT_LT(without.best_wrong, test::kSure) << "walls are taken for parts";
   }
 }
 
 TEST(PartNotThereTest, NothingIsSureInBinsOfOtherParts) {
-  constexpr double kSure = 0.9;
   double surest = 0.0;
   int reported = 0;
   for (const std::string there : {"t_pipe", "bracket"}) {
@@ -160,7 +159,7 @@ TEST(PartNotThereTest, NothingIsSureInBinsOfOtherParts) {
       if (!estimate.poses.empty()) surest = std::max(surest, estimate.poses[0].confidence);
     }
   }
-  EXPECT_LT(surest, kSure) << "a robot would pick what is not there";
+  EXPECT_LT(surest, test::kSure) << "a robot would pick what is not there";
   EXPECT_LE(reported, 2) << "in four bins";
 }
 

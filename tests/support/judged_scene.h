@@ -18,6 +18,9 @@ namespace rangepose::test {
 /// [share of the diameter].
 inline constexpr double kRightPose = 0.05;
 
+/// What a cell that must not err takes for `--min-score`, as the README says.
+inline constexpr double kSure = 0.9;
+
 struct Judged {
   int right = 0;             ///< poses of parts that are there, each part counted once
   int wrong = 0;             ///< all other poses
