@@ -250,11 +250,12 @@ RP_HD RimPartner rimPartner(const DepthReader<Read>& scene,
         pixel.y < scene.height - 1 - v_margin)) {
     return nearest;
   }
+  const glm::dvec2 corner = pixel + 0.5;  // rounded to the nearest pixel when cut off
   int last_on = 0;
   int off = kEnded;  // nothing has begun that could end
   for (int i = -steps; i <= steps + 1; ++i) {
-    const double seen = scene.read(static_cast<int>(pixel.x + i * pixel_step.x + 0.5),
-                                   static_cast<int>(pixel.y + i * pixel_step.y + 0.5));
+    const glm::dvec2 at = corner + static_cast<double>(i) * pixel_step;
+    const double seen = scene.read(static_cast<int>(at.x), static_cast<int>(at.y));
     const double behind = seen - (point_mm.z + i * step.z);
     if (seen != 0.0 && behind < -gap_mm) {
       off = kEnded;
