@@ -45,7 +45,9 @@ struct Pass {
 
 class Estimator {
  public:
+  /// `foreground` is all of it.
   Estimator(const DepthImage& depth,
+            const Image<std::uint8_t>& foreground,
             const ReferenceDatabase& database,
             const EstimateOptions& options,
             StageSet& stages,
@@ -55,6 +57,7 @@ class Estimator {
         options_(options),
         stages_(stages),
         result_(result),
+        whole_(stages.uploadDepth(depth, foreground)),
         few_points_(fewPointsOfViews(database)),
         tried_(database.objects.size()) {}
 
@@ -67,18 +70,21 @@ class Estimator {
     // What was looked at quickly may be looked at once more.
     if (passes_ == 1) tried_.assign(database_.objects.size(), {});
     ++passes_;
-    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
-    const RefineScene scene{depth_, *resident, result_.noise_mm, few_points_, stages_};
+    // Nothing is taken out before the first pass.
+    const std::unique_ptr<ResidentDepth> left =
+        passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
+    const ResidentDepth& resident = left ? *left : *whole_;
+    const RefineScene scene{depth_, resident, result_.noise_mm, few_points_, stages_};
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
       const std::vector<glm::dvec3> starts =
-          findStarts(object, foreground, *resident, tried_[i], effort.starts, object_trace);
+          findStarts(object, foreground, resident, tried_[i], effort.starts, object_trace);
       tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
       pass.starts += static_cast<int>(starts.size());
-      const Windows windows = cutWindows(object, *resident, starts, object_trace);
+      const Windows windows = cutWindows(object, resident, starts, object_trace);
       const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
@@ -106,14 +112,11 @@ class Estimator {
   }
 
   /// Aligns and checks turned copies of poses on all of the foreground; none that is known already.
-  std::vector<Candidate> alignTurned(std::vector<Candidate> copies,
-                                     const Image<std::uint8_t>& foreground,
-                                     const Selection& known) {
+  std::vector<Candidate> alignTurned(std::vector<Candidate> copies, const Selection& known) {
     constexpr int kVerified = 2;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
-    const std::unique_ptr<ResidentDepth> resident = stages_.uploadDepth(depth_, foreground);
-    const RefineScene scene{depth_, *resident, result_.noise_mm, few_points_, stages_};
+    const RefineScene scene{depth_, *whole_, result_.noise_mm, few_points_, stages_};
     copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -221,6 +224,7 @@ class Estimator {
   const EstimateOptions& options_;
   StageSet& stages_;
   Estimate& result_;
+  std::unique_ptr<ResidentDepth> whole_;  ///< with all of the foreground
   std::vector<ViewPoints> few_points_;
   int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
@@ -287,7 +291,7 @@ Estimate estimatePoses(const DepthImage& depth,
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
   }
   if (trace != nullptr) trace->foreground = foreground;
-  Estimator estimator(depth, database, options, stages, result);
+  Estimator estimator(depth, foreground, database, options, stages, result);
   Selection selection(depth, database, result.noise_mm, options.min_score);
   Image<std::uint8_t> rest = foreground;
   std::vector<Candidate> chosen;
@@ -301,7 +305,7 @@ Estimate estimatePoses(const DepthImage& depth,
       selection.add(pass.checked);
       copies = selection.turnedCopies();
     }
-    copies = estimator.alignTurned(std::move(copies), foreground, selection);
+    copies = estimator.alignTurned(std::move(copies), selection);
     const ScopedTimer timer(result.times, "selection");
     selection.add(copies);
     const std::size_t before = chosen.size();

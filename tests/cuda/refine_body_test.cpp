@@ -57,10 +57,7 @@ TEST_P(RefineBodyTest, RimsAreTheHosts) {
   for (int view = 0; view < 4; ++view) {
     scene.show(view);
     const Camera& camera = scene.depth.camera;
-    const SurfaceWindow window = wholeWindowAround(
-        camera, scene.truth * scene.object.center_mm, scene.object.radius_mm, 112);
-    const Image<SurfaceTexel> surface =
-        host::renderSurface(scene.object.mesh, camera, scene.truth, window);
+    const auto [window, surface] = scene.seenAt(scene.truth);
     std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, scene.truth, 300);
     const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, scene.truth, 300);
     ASSERT_GT(rim.size(), 10U);

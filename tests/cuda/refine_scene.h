@@ -52,6 +52,20 @@ struct RefineScene {
     rough.translation_mm += glm::dvec3(2.0, 1.0, -3.0);
   }
 
+  /// What the camera sees of the object at a pose, as the estimate renders it.
+  struct Seen {
+    SurfaceWindow window;
+    Image<SurfaceTexel> surface;
+  };
+  Seen seenAt(const Pose& pose) const {
+    constexpr int kRenderPx = 112;
+    Seen seen;
+    seen.window =
+        wholeWindowAround(depth.camera, pose * object.center_mm, object.radius_mm, kRenderPx);
+    seen.surface = host::renderSurface(object.mesh, depth.camera, pose, seen.window);
+    return seen;
+  }
+
   cuda::IcpTask icpTask(const std::vector<SurfacePoint>& points, const IcpOptions& options) const {
     cuda::IcpTask task;
     task.point_count = static_cast<int>(points.size());

@@ -51,10 +51,7 @@ TEST_P(SurfacePointsBodyTest, PointsAndTheirOrderAreTheHosts) {
   for (int view = 0; view < 3; ++view) {
     scene.show(view);
     const Camera& camera = scene.depth.camera;
-    const SurfaceWindow window = wholeWindowAround(
-        camera, scene.rough * scene.object.center_mm, scene.object.radius_mm, 112);
-    const Image<SurfaceTexel> surface =
-        host::renderSurface(scene.object.mesh, camera, scene.rough, window);
+    const auto [window, surface] = scene.seenAt(scene.rough);
     for (const int most : {1, 7, 60, 900, 100000}) {
       std::vector<SurfacePoint> expected =
           pointsOfSurface(surface, camera, window, scene.rough, most);

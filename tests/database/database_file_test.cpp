@@ -16,6 +16,7 @@
 #include "support/box_mesh.h"
 #include "support/range_scenes.h"
 #include "support/shapes.h"
+#include "support/temp_folder.h"
 
 namespace rangepose {
 namespace {
@@ -203,30 +204,25 @@ TEST(DatabaseFileTest, ImpossibleSizesAreRefusedBeforeTheyAreUsed) {
 
 class DatabasePathTest : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ =
-        std::filesystem::temp_directory_path() /
-        ("rangepose_database_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
-         "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-    std::filesystem::create_directories(folder_);
-  }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_;
+  const std::filesystem::path& folder() const { return folder_.path(); }
+
+ private:
+  const test::TempFolder folder_;
 };
 
 TEST_F(DatabasePathTest, ReadsAFile) {
   const ReferenceDatabase database = smallDatabase();
   const std::vector<char> bytes = serialize(database);
-  const std::filesystem::path path = folder_ / "parts.rpdb";
+  const std::filesystem::path path = folder() / "parts.rpdb";
   std::ofstream(path, std::ios::binary)
       .write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   EXPECT_EQ(serialize(readDatabase(path)), bytes);
 }
 
 TEST_F(DatabasePathTest, AMissingFileAFolderAndAnEmptyFileAreNamed) {
-  std::ofstream(folder_ / "empty.rpdb").flush();
+  std::ofstream(folder() / "empty.rpdb").flush();
   for (const std::filesystem::path& path :
-       {folder_ / "missing.rpdb", folder_, folder_ / "empty.rpdb"}) {
+       {folder() / "missing.rpdb", folder(), folder() / "empty.rpdb"}) {
     try {
       readDatabase(path);
       ADD_FAILURE() << path << " was read";

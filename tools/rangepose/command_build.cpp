@@ -116,13 +116,8 @@ class Builder {
     const auto begin = std::chrono::steady_clock::now();
     Mesh mesh = readMesh(file.path, parseLengthUnit(arguments_.unit));
     const ChannelOptions options = channelOptionsFor(arguments_.size);
-    const Symmetries found = findSymmetries(mesh);
-    const Symmetries symmetries = file.symmetries ? *file.symmetries : found;
-    if (symmetries.none() && !found.none()) {
-      printWarning(file.path.string() + ": models_info.json names no symmetry, but the mesh has " +
-                   symmetryName(found) +
-                   "; poses that look the same will share their score, unless it is added there");
-    }
+    const Symmetries symmetries = file.symmetries ? *file.symmetries : findSymmetries(mesh);
+    if (file.symmetries && symmetries.none()) warnAboutSymmetries(file, mesh);
     const ChosenViews chosen = chooseViews(request_, file.path, mesh, symmetries);
     if (!chosen.note.empty()) notes_.push_back(chosen.note);
     ReferenceObject object =
@@ -148,6 +143,14 @@ class Builder {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  static void warnAboutSymmetries(const ModelFile& file, const Mesh& mesh) {
+    const Symmetries found = findSymmetries(mesh);
+    if (found.none()) return;
+    printWarning(file.path.string() + ": models_info.json names no symmetry, but the mesh has " +
+                 symmetryName(found) +
+                 "; poses that look the same will share their score, unless it is added there");
+  }
+
   void render(ReferenceObject& object, const ChannelOptions& options) {
     const int views = static_cast<int>(object.views.size());
     Progress progress(std::cerr, object.mesh.name, views, terminalProgress());
