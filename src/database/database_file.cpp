@@ -92,7 +92,6 @@ ReferenceObject readObject(ByteReader& in) {
   ReferenceObject object;
   object.id = in.value<std::int32_t>();
   object.mesh = readMesh(in);
-  object.thickness_mm = thickness(object.mesh);
   object.symmetries = readSymmetries(in);
   object.center_mm = in.value<glm::dvec3>();
   object.radius_mm = in.value<double>();
@@ -104,6 +103,7 @@ ReferenceObject readObject(ByteReader& in) {
       object.size < 16 || object.size > 128 || object.edt_passes < 1 || object.edt_passes > 255) {
     in.fail("object " + std::to_string(object.id) + " has impossible sizes");
   }
+  measureShape(object);
   const std::size_t views = in.count(sizeof(glm::dmat3));
   if (views < 1 || views > kMaxViews) in.fail("impossible number of views");
   object.views.resize(views);

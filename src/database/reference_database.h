@@ -16,6 +16,9 @@ struct ReferenceDatabase {
   std::vector<ReferenceObject> objects;
 };
 
+/// Sets what follows from the mesh and the diameter alone: thickness and flat faces.
+void measureShape(ReferenceObject& object);
+
 /// An object with its scale and the orientations of its views, not rendered yet. Throws Error for a
 /// mesh that checkMesh refuses or for a size or number of views out of range (16..128
 /// px, 1..65536).

@@ -3,6 +3,7 @@
 
 #include "core/error.h"
 #include "database/reference_database.h"
+#include "geometry/flat_faces.h"
 #include "geometry/surface_sample.h"
 
 namespace rangepose {
@@ -19,6 +20,13 @@ ChannelOptions channelOptionsOf(const ReferenceObject& object) {
   options.image_width_px = object.size;
   options.edt_passes = object.edt_passes;
   return options;
+}
+
+void measureShape(ReferenceObject& object) {
+  constexpr double kFlat = 0.02;  // of the diameter
+  const std::vector<FlatFace> faces = flatFaces(object.mesh, kFlat * object.diameter_mm);
+  object.thickness_mm = std::min(thickness(object.mesh), sheetThickness(faces));
+  object.flat_face = largestExtent(faces);
 }
 
 ReferenceObject describeObject(const Mesh& mesh,
@@ -40,7 +48,7 @@ ReferenceObject describeObject(const Mesh& mesh,
   object.center_mm = sphere.center_mm;
   object.radius_mm = sphere.radius_mm;
   object.diameter_mm = diameter(mesh);
-  object.thickness_mm = thickness(mesh);
+  measureShape(object);
   object.size = size_px;
   object.edt_passes = options.edt_passes;
   object.pixel_mm = 2.0 * sphere.radius_mm / (size_px - 2.0 * kTileMarginPx);

@@ -13,9 +13,8 @@ constexpr int kTrialSamples = 1500;
 constexpr int kTrials = 4000;
 /// A wall makes at least this angle with the floor: cos 50 degrees.
 constexpr double kMaxWallCos = 0.64;
-/// The surface at a point of a plane is tilted against it by at most this: cos 25 degrees. A plane
-/// that cuts through a heap has as many points near it as a floor, but not their slope.
-constexpr double kMinTiltCos = 0.906;
+/// Points of a part's face that is hidden in the middle are spread wider than the face's area.
+constexpr double kFaceInParts = 1.35;
 
 /// A measured point with the slope of the surface there.
 struct Sample {
@@ -68,9 +67,11 @@ BackgroundPlane facingCamera(glm::dvec3 normal, const glm::dvec3& point, bool or
   return {normal, glm::dot(normal, point)};
 }
 
+/// Near it and sloped like it: a plane that cuts through a heap has as many points near it as a
+/// floor, but not their slope.
 bool liesOn(const Sample& sample, const BackgroundPlane& plane, double tolerance) {
   return std::abs(plane.heightOf(sample.point)) <= tolerance &&
-         glm::dot(sample.normal, plane.normal) > kMinTiltCos;
+         glm::dot(sample.normal, plane.normal) > kFlatTiltCos;
 }
 
 /// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no
@@ -124,22 +125,9 @@ glm::dvec3 thinDirection(const Scatter& scatter, glm::dvec3 normal) {
   return normal;
 }
 
-/// Length and width of the points in the plane, as if spread evenly [mm].
-struct Extent {
-  double length_mm;
-  double width_mm;
-};
-
-Extent extentIn(const Scatter& scatter, const glm::dvec3& normal) {
-  const glm::dvec3 helper = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 a = glm::normalize(glm::cross(normal, helper));
-  const glm::dvec3 b = glm::cross(normal, a);
-  const double aa = glm::dot(a, scatter.covariance * a);
-  const double ab = glm::dot(a, scatter.covariance * b);
-  const double bb = glm::dot(b, scatter.covariance * b);
-  const double spread = std::sqrt(std::max(0.0, 0.25 * (aa - bb) * (aa - bb) + ab * ab));
-  const double middle = 0.5 * (aa + bb);
-  return {std::sqrt(12.0 * (middle + spread)), std::sqrt(12.0 * std::max(0.0, middle - spread))};
+bool fitsFace(const PlaneExtent& extent, const PlaneExtent& face) {
+  return extent.length_mm < kFaceInParts * face.length_mm &&
+         extent.width_mm < kFaceInParts * face.width_mm;
 }
 
 /// The plane through three random samples that most samples lie on, fitted to them; walls stand on
@@ -189,8 +177,12 @@ BackgroundPlane bestPlane(const Samples& samples,
 ForegroundOptions foregroundOptionsFor(const ReferenceDatabase& database, double noise_mm) {
   ForegroundOptions options;
   options.part_mm = 0.0;
-  for (const ReferenceObject& object : database.objects)
+  for (const ReferenceObject& object : database.objects) {
     options.part_mm = std::max(options.part_mm, object.diameter_mm);
+    PlaneExtent& face = options.flat_face;
+    face.length_mm = std::max(face.length_mm, object.flat_face.length_mm);
+    face.width_mm = std::max(face.width_mm, object.flat_face.width_mm);
+  }
   const double coarse_mm = std::max(1.5, 0.02 * options.part_mm);
   // A thin part must not go with the table that it lies on, as far as the noise allows.
   const double least_mm = std::min(coarse_mm, 3.0 * noise_mm);
@@ -219,7 +211,13 @@ std::vector<BackgroundPlane> findBackground(const DepthImage& image,
     const Scatter scatter = scatterOn(rest, plane, options.tolerance_mm);
     if (scatter.count < total * (is_floor ? options.min_floor_share : options.min_wall_share))
       break;
-    const Extent extent = extentIn(scatter, plane.normal);
+    const PlaneExtent extent = extentInPlane(scatter.covariance, plane.normal);
+    if (fitsFace(extent, options.flat_face)) {
+      // A sheet with nothing behind it. It is no floor either, so that walls are looked for beside.
+      std::erase_if(rest,
+                    [&](const Sample& one) { return liesOn(one, plane, options.tolerance_mm); });
+      continue;
+    }
     const double scale = options.part_mm;
     if (extent.length_mm < (is_floor ? 1.3 : 0.7) * scale) break;
     if (extent.width_mm < (is_floor ? 0.4 : 0.25) * scale) break;

@@ -7,11 +7,13 @@
 
 #include "core/camera.h"
 #include "database/reference_database.h"
+#include "geometry/flat_faces.h"
 
 namespace rangepose {
 
 struct ForegroundOptions {
   double part_mm = 100.0;     ///< diameter of the largest part [mm]: a background plane is larger
+  PlaneExtent flat_face;      ///< of the parts: no wall is as small
   double tolerance_mm = 2.0;  ///< points this close to a plane belong to it [mm]
   double min_floor_share = 0.04;  ///< of the measured pixels that a floor or table has at least
   double min_wall_share = 0.02;   ///< the same for a wall

@@ -32,6 +32,8 @@ struct CheckResult {
   double outline = 0.0;          ///< share of the outline where the data ends with the model, 0..1
   double outline_covered = 0.0;  ///< share of the outline of which nothing can be said: covered, or
                                  ///< no measurement; counts half
+  double flat = 0.0;             ///< length of the mean normal of what is near the data, 0..1: 1
+                                 ///< where that is one flat face
   double residual_mm = 0.0;      ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;    ///< explained surface as the camera sees it [mm^2]
   int pixels = 0;                ///< rendered pixels
@@ -90,6 +92,9 @@ struct CheckTally {
   double weak = 0.0;
   double residual_mm = 0.0;
   double agreeing = 0.0;
+  double normal_x = 0.0;
+  double normal_y = 0.0;
+  double normal_z = 0.0;
   double pixels = 0.0;
   double border = 0.0;
   double border_ends = 0.0;
@@ -145,21 +150,29 @@ RP_HD void judgePixel(const SurfaceTexel& model,
   tally.weak += 1.0 - agreement;
   tally.residual_mm += distance;
   tally.agreeing += 1.0;
+  tally.normal_x += static_cast<double>(model.x);
+  tally.normal_y += static_cast<double>(model.y);
+  tally.normal_z += static_cast<double>(model.z);
 }
 
-/// Whether the data goes on smoothly beyond the model's outline at pixel (x, y) of the rendered
-/// surface. `surface_depth(x, y)` gives its depth [mm], 0 where it shows nothing or has no pixel.
+/// Whether the data goes on beyond the model's outline at pixel (x, y) of the rendered surface:
+/// near its depth and in its slope, where an edge at which the part touches something is an end.
+/// `surface_depth(x, y)` gives its depth [mm], 0 where it shows nothing or has no pixel.
 template <typename Depth, typename Read>
 RP_HD void judgeBorder(const Depth& surface_depth,
                        const SurfaceWindow& window,
                        const Measured<Read>& measured,
                        int x,
                        int y,
+                       const glm::dvec3& normal,
                        const CheckOptions& options,
                        CheckTally& tally) {
   constexpr int kOut = 2;
+  constexpr double kBentSine = 0.5;  // 30 degrees
   const double model = static_cast<double>(surface_depth(x, y));
-  const double inside = measured.at(window.x0 + x * window.step, window.y0 + y * window.step);
+  const int in_u = window.x0 + x * window.step;
+  const int in_v = window.y0 + y * window.step;
+  const double inside = measured.at(in_u, in_v);
   // Behind nearer data, over holes and outside of the image nothing can be said: that counts half.
   const bool covered = inside < model - options.tolerance_mm;
   for (int direction = 0; direction < 4; ++direction) {
@@ -181,6 +194,11 @@ RP_HD void judgeBorder(const Depth& surface_depth,
     } else if (outside < model - 1.5 * options.tolerance_mm) {
       tally.border_ends += 0.5;
       tally.border_covered += 1.0;
+    } else if (inside != 0.0) {
+      const glm::dvec3 way = measured.camera.unproject(out_u, out_v, outside) -
+                             measured.camera.unproject(in_u, in_v, inside);
+      const bool bent = std::abs(glm::dot(normal, way)) > kBentSine * glm::length(way);
+      tally.border_ends += bent ? 1.0 : 0.0;
     }
   }
 }
@@ -201,7 +219,7 @@ RP_HD void judgeSurfacePixel(const SurfaceTexel& texel,
   tally.visible_mm2 += width_mm * width_mm;
   judgePixel(
       texel, measured, window.x0 + x * window.step, window.y0 + y * window.step, rules, tally);
-  judgeBorder(surface_depth, window, measured, x, y, rules.options, tally);
+  judgeBorder(surface_depth, window, measured, x, y, glm::dvec3(texel), rules.options, tally);
 }
 
 /// One point of an object's surface, given in its frame, at a pose.
@@ -249,6 +267,8 @@ RP_HD CheckResult summarizeCheck(const CheckTally& tally,
   result.missing = tally.missing / all;
   result.weak = tally.weak / all;
   result.explained_mm2 = result.explained * visible_mm2;
+  const glm::dvec3 normal(tally.normal_x, tally.normal_y, tally.normal_z);
+  result.flat = tally.agreeing > 0.0 ? glm::length(normal) / tally.agreeing : 0.0;
   result.residual_mm = tally.agreeing > 0.0 ? tally.residual_mm / tally.agreeing : 0.0;
   const double against = options.contradicted * result.contradicted +
                          options.missing * result.missing + options.hidden * result.hidden +

@@ -8,6 +8,7 @@
 #include "core/glm.h"
 #include "core/image.h"
 #include "core/pose.h"
+#include "geometry/flat_faces.h"
 #include "geometry/mesh.h"
 #include "geometry/symmetry.h"
 
@@ -45,7 +46,8 @@ struct ReferenceObject {
   glm::dvec3 center_mm{0.0};  ///< centre of the bounding sphere, in the object's frame [mm]
   double radius_mm = 0.0;     ///< of that sphere [mm]
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
-  double thickness_mm = 0.0;  ///< smallest extent; 0: not known
+  double thickness_mm = 0.0;  ///< smallest extent, of sheet metal that of the sheet; 0: not known
+  PlaneExtent flat_face;      ///< largest length and width of its flat faces; 0: not known
   double pixel_mm = 0.0;      ///< width of a pixel of a view [mm]
   int size = 64;              ///< a tile is size x size pixels
   int edt_passes = 0;         ///< passes of the distance transform: EDT values reach edt_passes + 1

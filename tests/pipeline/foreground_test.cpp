@@ -195,6 +195,41 @@ TEST(ForegroundTest, FlatPartsSideBySideKeepTheirFaces) {
   EXPECT_TRUE(foregroundMask(image, planes, std::nullopt, options) == shown);
 }
 
+/// A bin with a wall, a box, and a large sheet behind which nothing lies.
+struct SheetInABin {
+  Pose bin = aboveTable(470.0);
+  DepthImage image = nothing();
+  Image<std::uint8_t> sheet;
+
+  SheetInABin() {
+    test::measure(image, test::plateMesh(260.0, 220.0), bin);
+    Pose wall;
+    wall.rotation = rotationFromVector({0.0, 0.5 * std::numbers::pi, 0.0});
+    wall.translation_mm = {130.0, 0.0, 35.0};
+    test::measure(image, test::plateMesh(70.0, 220.0), bin * wall);
+    Pose leaning;
+    leaning.rotation = rotationFromVector({0.0, -0.65 * std::numbers::pi, 0.0});
+    leaning.translation_mm = {-20.0, -30.0, 2.0};
+    sheet = addParts(image, test::meshOf({{{0, 0, 0}, {80, 60, 2}}}), bin * leaning);
+    addParts(image, test::meshOf({boxAt(50.0, -20.0, {40.0, 40.0, 20.0})}), bin);
+  }
+};
+
+TEST(ForegroundTest, SheetThatLeansInTheBinIsNoWall) {
+  const SheetInABin scene;
+  ForegroundOptions options = optionsFor(100.0);
+  options.tolerance_mm = 0.6;
+  const std::vector<BackgroundPlane> without = findBackground(scene.image, options);
+  EXPECT_EQ(without.size(), 3u) << "the sheet alone could not be told from a wall";
+  options.flat_face = {80.0, 60.0};
+  const std::vector<BackgroundPlane> planes = findBackground(scene.image, options);
+  ASSERT_EQ(planes.size(), 2u) << "floor and wall";
+  const Image<std::uint8_t> mask = foregroundMask(scene.image, planes, std::nullopt, options);
+  const Tally tally = tallyOf(scene.image, mask, scene.sheet, scene.bin, 4.0);
+  EXPECT_EQ(tally.parts_kept, tally.parts) << "a part in plain view would be lost";
+  EXPECT_GT(tally.parts, 1000);
+}
+
 TEST(ForegroundTest, EmptyImageHasNoBackground) {
   EXPECT_TRUE(findBackground(nothing(), optionsFor(62.0)).empty());
   const Image<std::uint8_t> mask = foregroundMask(nothing(), {}, std::nullopt, optionsFor(62.0));

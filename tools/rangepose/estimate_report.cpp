@@ -45,6 +45,7 @@ Json checkJson(const CheckResult& check) {
           {"weak", finite(check.weak, "check.weak")},
           {"outline", finite(check.outline, "check.outline")},
           {"outline_covered", finite(check.outline_covered, "check.outline_covered")},
+          {"flat", finite(check.flat, "check.flat")},
           {"explained_mm2", finite(check.explained_mm2, "check.explained_mm2")},
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
 }
