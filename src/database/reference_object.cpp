@@ -23,9 +23,13 @@ ChannelOptions channelOptionsOf(const ReferenceObject& object) {
 }
 
 void measureShape(ReferenceObject& object) {
-  constexpr double kFlat = 0.02;  // of the diameter
+  constexpr double kFlat = 0.02;       // of the diameter
+  constexpr double kThinSheet = 0.05;  // of the diameter: thicker walls are no sheet
   const std::vector<FlatFace> faces = flatFaces(object.mesh, kFlat * object.diameter_mm);
-  object.thickness_mm = std::min(thickness(object.mesh), sheetThickness(faces));
+  object.thickness_mm = thickness(object.mesh);
+  const double sheet_mm = sheetThickness(faces);
+  if (sheet_mm < kThinSheet * object.diameter_mm)
+    object.thickness_mm = std::min(object.thickness_mm, sheet_mm);
   object.flat_face = largestExtent(faces);
 }
 

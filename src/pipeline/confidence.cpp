@@ -7,7 +7,8 @@ namespace rangepose {
 
 // The weights follow logistic regressions on checked poses of simulated bins: the parts of models/
 // and of models/tuning, sheets flat and bent, boxes, slabs, rods and trays, alone and in heaps,
-// with sensor and rough noise, and each searched for among the others.
+// with sensor and rough noise, and each searched for among the others. What such bins hardly show
+// is set so that it does no harm there: poses of which little is seen count for less.
 double logOddsOf(const CheckResult& check, double visible_share) {
   const double seen = 1.0 - check.outline_covered;
   const double ends = seen > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / seen : 0.5;
@@ -16,11 +17,11 @@ double logOddsOf(const CheckResult& check, double visible_share) {
   const double goes_on = std::max(0.0, 0.9 - ends) * seen;
   // Of what is mostly hidden or not measured, the rest fits many things.
   const double unseen = check.hidden + check.missing;
-  return -37.8 - 10.4 * std::log(check.contradicted + 0.1) - 5.0 * std::log(check.buried + 0.1) +
-         10.0 * ends + 6.0 * (ends - 0.8) * seen +
-         3.2 * std::log(std::min(visible_share, 1.0) + 0.02) -
-         flat * (6.0 * check.outline_covered + 60.0 * goes_on) - 6.0 * std::max(0.0, unseen - 0.4) -
-         40.0 * std::max(0.0, unseen - 0.65);
+  return -33.6 - 7.3 * std::log(check.contradicted + 0.1) - 6.2 * std::log(check.buried + 0.1) +
+         10.4 * ends + 10.0 * (ends - 0.8) * seen +
+         3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
+         flat * (2.0 * check.outline_covered + 60.0 * goes_on) - 8.0 * std::max(0.0, unseen - 0.4) -
+         40.0 * std::max(0.0, unseen - 0.55);
 }
 
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
