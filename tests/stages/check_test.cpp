@@ -1,6 +1,9 @@
 // The verdict on a pose: wrong poses must lose against right ones, for each way of being wrong.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "stages/check_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
@@ -166,6 +169,38 @@ TEST(CheckTest, AFaceInTheMiddleOfALargePlaneHasNoOutline) {
   EXPECT_GT(result.explained, 0.99);
   EXPECT_LT(result.outline, 0.05);
   EXPECT_LT(result.score, 0.35);
+}
+
+TEST(CheckTest, AnEdgeAtWhichAPartTouchesTheTableIsAnEndOfItsOutline) {
+  const Mesh box = test::meshOf({{{-20, -20, 0}, {20, 20, 30}}});
+  DepthImage image{test::pinholeCamera(320, 240, 600.0), {}};
+  Pose pose;
+  pose.rotation = rotationFromVector({std::numbers::pi + 0.7, 0.0, 0.0});
+  pose.translation_mm = {0.0, 0.0, 400.0};
+  test::measure(image, box, pose);
+  test::measure(image, test::plateMesh(600.0, 600.0), pose);
+  const SurfaceWindow window = test::wholeWindow(image.camera);
+  const CheckResult result =
+      host::check(host::renderSurface(box, image.camera, pose, window), window, image, {});
+  EXPECT_GT(result.outline, 0.95) << "parts in plain view on a table would be unsure";
+  EXPECT_LT(result.outline_covered, 0.05);
+}
+
+TEST(CheckTest, OneFaceIsFlatAndACornerIsNot) {
+  const Mesh cube = test::meshOf({{{-20, -20, -20}, {20, 20, 20}}});
+  const auto flat = [&](const glm::dmat3& rotation) {
+    DepthImage image{test::pinholeCamera(320, 240, 600.0), {}};
+    const Pose pose{rotation, {0.0, 0.0, 900.0}};
+    test::measure(image, cube, pose);
+    const SurfaceWindow window = test::wholeWindow(image.camera);
+    return host::check(host::renderSurface(cube, image.camera, pose, window), window, image, {})
+        .flat;
+  };
+  EXPECT_NEAR(flat(glm::dmat3(1.0)), 1.0, 1e-6);
+  // Along a diagonal three faces are as large as each other: their mean normal is that long.
+  const double along_diagonal = 1.0 / std::sqrt(3.0);
+  EXPECT_NEAR(flat(test::looking({1.0, 1.0, 1.0})), along_diagonal, 0.02)
+      << "a flat face could be laid on any other";
 }
 
 TEST(CheckTest, NothingRenderedScoresNothing) {
