@@ -68,6 +68,15 @@ struct Measured {
     return {true, glm::normalize(glm::cross(down.value, across.value))};
   }
 
+  /// Sine of the angle between a plane and the way from one measured point to another; 1 where the
+  /// other was not measured.
+  RP_HD double riseAlong(const glm::dvec3& normal, int u, int v, int to_u, int to_v) const {
+    const double there = at(to_u, to_v);
+    if (there == 0.0) return 1.0;
+    const glm::dvec3 way = camera.unproject(to_u, to_v, there) - camera.unproject(u, v, at(u, v));
+    return std::abs(glm::dot(normal, way)) / glm::length(way);
+  }
+
   RP_HD Vector slope(int u, int v, int du, int dv) const {
     const double before = at(u - du, v - dv);
     const double here = at(u, v);
@@ -195,10 +204,12 @@ RP_HD void judgeBorder(const Depth& surface_depth,
       tally.border_ends += 0.5;
       tally.border_covered += 1.0;
     } else if (inside != 0.0) {
-      const glm::dvec3 way = measured.camera.unproject(out_u, out_v, outside) -
-                             measured.camera.unproject(in_u, in_v, inside);
-      const bool bent = std::abs(glm::dot(normal, way)) > kBentSine * glm::length(way);
-      tally.border_ends += bent ? 1.0 : 0.0;
+      // Rough data bends anywhere: an edge is where it follows the model up to its outline.
+      const int back_u = in_u - kOut * dx * window.step;
+      const int back_v = in_v - kOut * dy * window.step;
+      const double out_sine = measured.riseAlong(normal, in_u, in_v, out_u, out_v);
+      const double back_sine = measured.riseAlong(normal, in_u, in_v, back_u, back_v);
+      tally.border_ends += out_sine > kBentSine && back_sine < kBentSine ? 1.0 : 0.0;
     }
   }
 }
