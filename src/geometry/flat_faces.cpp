@@ -5,25 +5,20 @@
 #include <limits>
 
 #include "core/parallel.h"
+#include "geometry/triangle_corners.h"
 
 namespace rangepose {
 namespace {
 
 constexpr int kTried = 48;
 
-struct Corners {
-  glm::dvec3 a, b, c;
-
-  Corners(const Mesh& mesh, const glm::uvec3& triangle)
-      : a(mesh.vertices[triangle.x]), b(mesh.vertices[triangle.y]), c(mesh.vertices[triangle.z]) {}
-  /// As long as twice the area.
-  glm::dvec3 cross() const { return glm::cross(b - a, c - a); }
-  glm::dvec3 middle() const { return (a + b + c) / 3.0; }
-};
+glm::dvec3 middleOf(const TriangleCorners& triangle) {
+  return (triangle.a + triangle.b + triangle.c) / 3.0;
+}
 
 /// How far it is from `from` along the unit vector `down` to the triangle (Moeller and Trumbore
 /// 1997); infinity where it is missed.
-double hitBy(const glm::dvec3& from, const glm::dvec3& down, const Corners& triangle) {
+double hitBy(const glm::dvec3& from, const glm::dvec3& down, const TriangleCorners& triangle) {
   constexpr double kMissed = std::numeric_limits<double>::infinity();
   const glm::dvec3 ab = triangle.b - triangle.a;
   const glm::dvec3 ac = triangle.c - triangle.a;
@@ -39,22 +34,25 @@ double hitBy(const glm::dvec3& from, const glm::dvec3& down, const Corners& tria
   return glm::dot(ac, q) / determinant;
 }
 
-FlatFace faceAround(const Mesh& mesh, const Corners& seed, double total_mm2, double tolerance_mm) {
+FlatFace faceAround(const Mesh& mesh,
+                    const TriangleCorners& seed,
+                    double total_mm2,
+                    double tolerance_mm) {
   const glm::dvec3 normal = glm::normalize(seed.cross());
-  const glm::dvec3 from = seed.middle();
+  const glm::dvec3 from = middleOf(seed);
   FlatFace face;
   face.wall_mm = std::numeric_limits<double>::infinity();
   double twice_mm2 = 0.0;
   glm::dvec3 mean(0.0);
   glm::dmat3 second(0.0);
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const Corners corners(mesh, triangle);
+    const TriangleCorners corners(mesh, triangle);
     const double behind = hitBy(from, -normal, corners);
     if (behind > 1e-3 * tolerance_mm) face.wall_mm = std::min(face.wall_mm, behind);
     const glm::dvec3 cross = corners.cross();
     const double twice = glm::length(cross);
     if (glm::dot(cross, normal) < kFlatTiltCos * twice) continue;
-    const glm::dvec3 middle = corners.middle() - from;
+    const glm::dvec3 middle = middleOf(corners) - from;
     if (std::abs(glm::dot(normal, middle)) > tolerance_mm) continue;
     twice_mm2 += twice;
     mean += twice * middle;
@@ -85,11 +83,8 @@ PlaneExtent extentInPlane(const glm::dmat3& covariance, const glm::dvec3& normal
 
 std::vector<FlatFace> flatFaces(const Mesh& mesh, double tolerance_mm) {
   checkMesh(mesh);
-  std::vector<double> until;
-  until.reserve(mesh.triangles.size());
-  double total = 0.0;
-  for (const glm::uvec3& triangle : mesh.triangles)
-    until.push_back(total += 0.5 * glm::length(Corners(mesh, triangle).cross()));
+  const std::vector<double> until = cumulativeAreas(mesh);
+  const double total = until.back();
   std::vector<FlatFace> faces(kTried);
   parallelFor(kTried, 1, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -97,7 +92,7 @@ std::vector<FlatFace> flatFaces(const Mesh& mesh, double tolerance_mm) {
       const auto piece =
           std::lower_bound(until.begin(), until.end() - 1, total * (i + 0.5) / kTried);
       const auto index = static_cast<std::size_t>(std::distance(until.begin(), piece));
-      const Corners seed(mesh, mesh.triangles[index]);
+      const TriangleCorners seed(mesh, mesh.triangles[index]);
       faces[static_cast<std::size_t>(i)] = faceAround(mesh, seed, total, tolerance_mm);
     }
   });

@@ -6,22 +6,23 @@
 #include <limits>
 
 #include "core/error.h"
+#include "geometry/triangle_corners.h"
 
 namespace rangepose {
 namespace {
 
-struct Corners {
-  glm::dvec3 a, b, c;
-  double area() const { return 0.5 * glm::length(glm::cross(b - a, c - a)); }
-};
-
-Corners cornersOf(const Mesh& mesh, const glm::uvec3& triangle) {
-  return {mesh.vertices[triangle.x], mesh.vertices[triangle.y], mesh.vertices[triangle.z]};
-}
-
 double fraction(double value) { return value - std::floor(value); }
 
 }  // namespace
+
+std::vector<double> cumulativeAreas(const Mesh& mesh) {
+  std::vector<double> until;
+  until.reserve(mesh.triangles.size());
+  double total = 0.0;
+  for (const glm::uvec3& triangle : mesh.triangles)
+    until.push_back(total += TriangleCorners(mesh, triangle).area());
+  return until;
+}
 
 glm::dmat3 diagonalise(glm::dmat3& matrix) {
   constexpr int kSweeps = 12;
@@ -44,12 +45,8 @@ glm::dmat3 diagonalise(glm::dmat3& matrix) {
 std::vector<glm::dvec3> surfaceSample(const Mesh& mesh, int count) {
   RP_CHECK(count >= 1, "surface sample: at least one point is needed");
   checkMesh(mesh);
-  std::vector<double> until;
-  until.reserve(mesh.triangles.size());
-  double total = 0.0;
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    until.push_back(total += cornersOf(mesh, triangle).area());
-  }
+  const std::vector<double> until = cumulativeAreas(mesh);
+  const double total = until.back();
   // Additive recurrences with the powers of the plastic number's cousin in three dimensions:
   // every first part of the sequence fills the unit cube evenly.
   constexpr double kRoot = 1.2207440846057594754;  // positive root of x^4 = x + 1
@@ -60,7 +57,7 @@ std::vector<glm::dvec3> surfaceSample(const Mesh& mesh, int count) {
     double u = fraction(0.5 + i / (kRoot * kRoot));
     double v = fraction(0.5 + i / (kRoot * kRoot * kRoot));
     const auto piece = std::upper_bound(until.begin(), until.end() - 1, at);
-    const Corners t = cornersOf(
+    const TriangleCorners t(
         mesh, mesh.triangles[static_cast<std::size_t>(std::distance(until.begin(), piece))]);
     if (u + v > 1.0) {
       u = 1.0 - u;
@@ -76,14 +73,14 @@ AreaMoments areaMoments(const Mesh& mesh) {
   AreaMoments moments;
   double total = 0.0;
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const Corners t = cornersOf(mesh, triangle);
+    const TriangleCorners t(mesh, triangle);
     total += t.area();
     moments.centroid_mm += t.area() / 3.0 * (t.a + t.b + t.c);
   }
   moments.centroid_mm /= total;
   glm::dmat3 spread(0.0);
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const Corners t = cornersOf(mesh, triangle);
+    const TriangleCorners t(mesh, triangle);
     // Second moments of a triangle: exact from its corners and their sum.
     const std::array<glm::dvec3, 3> corners = {
         t.a - moments.centroid_mm, t.b - moments.centroid_mm, t.c - moments.centroid_mm};

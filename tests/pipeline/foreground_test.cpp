@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "sim/heap.h"
 #include "sim/scanner.h"
@@ -130,16 +131,22 @@ TEST(ForegroundTest, SameAnswerTwice) {
   }
 }
 
-TEST(ForegroundTest, FloorAndWallsAreRemoved) {
-  const Pose bin = aboveTable(470.0);
+/// A floor with a wall on some sides: -1 or 1 along x.
+DepthImage emptyBin(const Pose& bin, const std::vector<double>& sides) {
   DepthImage image = nothing();
   test::measure(image, test::plateMesh(260.0, 220.0), bin);
-  for (const double side : {-1.0, 1.0}) {
+  for (const double side : sides) {
     Pose wall;
     wall.rotation = rotationFromVector({0.0, 0.5 * std::numbers::pi, 0.0});
     wall.translation_mm = {130.0 * side, 0.0, 35.0};
     test::measure(image, test::plateMesh(70.0, 220.0), bin * wall);
   }
+  return image;
+}
+
+TEST(ForegroundTest, FloorAndWallsAreRemoved) {
+  const Pose bin = aboveTable(470.0);
+  DepthImage image = emptyBin(bin, {-1.0, 1.0});
   const Image<std::uint8_t> parts = addParts(image, threeParts(), bin);
   const ForegroundOptions options = optionsFor(62.0);
   const std::vector<BackgroundPlane> planes = findBackground(image, options);
@@ -198,15 +205,10 @@ TEST(ForegroundTest, FlatPartsSideBySideKeepTheirFaces) {
 /// A bin with a wall, a box, and a large sheet behind which nothing lies.
 struct SheetInABin {
   Pose bin = aboveTable(470.0);
-  DepthImage image = nothing();
+  DepthImage image = emptyBin(bin, {1.0});
   Image<std::uint8_t> sheet;
 
   SheetInABin() {
-    test::measure(image, test::plateMesh(260.0, 220.0), bin);
-    Pose wall;
-    wall.rotation = rotationFromVector({0.0, 0.5 * std::numbers::pi, 0.0});
-    wall.translation_mm = {130.0, 0.0, 35.0};
-    test::measure(image, test::plateMesh(70.0, 220.0), bin * wall);
     Pose leaning;
     leaning.rotation = rotationFromVector({0.0, -0.65 * std::numbers::pi, 0.0});
     leaning.translation_mm = {-20.0, -30.0, 2.0};
