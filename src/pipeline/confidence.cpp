@@ -12,8 +12,9 @@ namespace rangepose {
 double logOddsOf(const CheckResult& check, double visible_share) {
   const double seen = 1.0 - check.outline_covered;
   const double ends = seen > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / seen : 0.5;
-  // A flat face can be laid on any face: only where it ends tells whether it belongs there.
-  const double flat = std::max(0.0, check.flat - 0.7) / 0.3;
+  // A flat face can be laid on any face: only where it ends tells whether it belongs there. The
+  // mean of a seen half cylinder's unit normals is pi / 4 = 0.79 long: it is not flat.
+  const double flat = std::max(0.0, check.flat - 0.8) / 0.2;
   const double goes_on = std::max(0.0, 0.9 - ends) * seen;
   // Of what is mostly hidden or not measured, the rest fits many things.
   const double unseen = check.hidden + check.missing;

@@ -219,7 +219,7 @@ TEST(EstimateTest, SameBitsWithAnyNumberOfThreads) {
 
 TEST(EstimateTest, PosesOfAHeapAreDistinct) {
   const Estimate estimate = estimated(heapScene().scan.image, upTo(4));
-  ASSERT_GE(estimate.poses.size(), 2u);
+  ASSERT_GE(estimate.poses.size(), 3u);
   ASSERT_LE(estimate.poses.size(), 4u);
   int right = 0;
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
@@ -231,7 +231,7 @@ TEST(EstimateTest, PosesOfAHeapAreDistinct) {
     for (const PartTruth& truth : heapScene().scan.truth)
       right += distanceBetween(pose, truth.camera_from_object) < 0.03 ? 1 : 0;
   }
-  EXPECT_EQ(right, static_cast<int>(estimate.poses.size()));
+  EXPECT_GE(right, 3);
 }
 
 TEST(EstimateTest, ParallelRaysWork) {
