@@ -11,12 +11,15 @@ layout(location = 0) out highp float o_edge;
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy);
   float here = texelFetch(u_range, pixel, 0).RP_RANGE;
-  float jump = 0.0;
-  for (int dy = -1; dy <= 1; ++dy) {
-    for (int dx = -1; dx <= 1; ++dx) {
-      ivec2 near = clamp(pixel + ivec2(dx, dy), v_bounds.xy, v_bounds.zw - 1);
-      jump = max(jump, abs(texelFetch(u_range, near, 0).RP_RANGE - here));
-    }
+  // A slope goes on across the pixel; a jump does not.
+  float most = 0.0;
+  for (int i = 0; i < 4; ++i) {
+    ivec2 aside = i == 3 ? ivec2(-1, 0) : ivec2(i - 1, -1);
+    ivec2 low = clamp(pixel + aside, v_bounds.xy, v_bounds.zw - 1);
+    ivec2 high = clamp(pixel - aside, v_bounds.xy, v_bounds.zw - 1);
+    float before = texelFetch(u_range, low, 0).RP_RANGE - here;
+    float after = texelFetch(u_range, high, 0).RP_RANGE - here;
+    most = max(most, min(max(abs(before), abs(after)), abs(before + after)));
   }
-  o_edge = here != 0.0 && jump > u_threshold_px ? 1.0 : 0.0;
+  o_edge = here != 0.0 && most > u_threshold_px ? 1.0 : 0.0;
 }

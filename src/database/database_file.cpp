@@ -8,7 +8,7 @@
 namespace rangepose {
 namespace {
 
-constexpr FileKind kDatabase = {{'R', 'P', 'D', 'B'}, 2, "database", "build the database again"};
+constexpr FileKind kDatabase = {{'R', 'P', 'D', 'B'}, 3, "database", "build the database again"};
 constexpr std::size_t kMaxSymmetries = 1000;
 constexpr int kMaxViews = 65536;
 

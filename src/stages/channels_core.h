@@ -10,6 +10,7 @@ namespace channels_detail {
 
 RP_HD float smaller(float a, float b) { return b < a ? b : a; }
 RP_HD float larger(float a, float b) { return a < b ? b : a; }
+RP_HD float magnitude(float a) { return a < 0.0f ? -a : a; }
 RP_HD void order(float& low, float& high) {
   const float least = smaller(low, high);
   high = larger(low, high);
@@ -43,16 +44,21 @@ RP_HD float medianOfNine(float (&p)[9]) {
   return smaller(p[4], p[2]);
 }
 
-/// 1 where the middle of the nine, p[4], is no background and one of the others differs by more
-/// than the threshold from it.
+/// 1 where the middle of the nine, p[4], is no background and the range jumps there: by more than
+/// the threshold to one side, and by more than the threshold more than to the side across. Differs
+/// from the paper, which asks for the jump alone: there a steep face is nothing but edges, and a
+/// plate seen at a slant has no inside that could be compared.
 RP_HD float edgeOfNine(const float (&p)[9], float threshold_px) {
+  using namespace channels_detail;
   const float here = p[4];
-  float jump = 0.0f;
-  for (int i = 0; i < 9; ++i) {
-    const float gap = p[i] - here;
-    jump = channels_detail::larger(jump, gap < 0.0f ? -gap : gap);
+  float most = 0.0f;
+  for (int i = 0; i < 4; ++i) {
+    const float before = p[i] - here;
+    const float after = p[8 - i] - here;
+    const float jump = larger(magnitude(before), magnitude(after));
+    most = larger(most, smaller(jump, magnitude(before + after)));
   }
-  return here != 0.0f && jump > threshold_px ? 1.0f : 0.0f;
+  return here != 0.0f && most > threshold_px ? 1.0f : 0.0f;
 }
 
 }  // namespace rangepose

@@ -171,7 +171,7 @@ TEST(DatabaseFileTest, OtherFilesAndVersionsAreTold) {
               HasSubstr("not a rangepose database"));
   std::vector<char> newer = serialize(smallDatabase());
   newer[4] = static_cast<char>(newer[4] + 1);
-  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 3"), HasSubstr("reads version 2")));
+  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 4"), HasSubstr("reads version 3")));
 }
 
 TEST(DatabaseFileTest, ADatabaseWithoutObjectsIsRefused) {

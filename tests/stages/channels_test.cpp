@@ -29,7 +29,7 @@ TEST(MedianTest, RemovesASpikeAndAPinHole) {
   EXPECT_EQ(host::median(range), Image<float>(9, 9, 80.0f));
 }
 
-TEST(EdgesTest, AreWhereANeighbourDiffersByMoreThanTheThreshold) {
+TEST(EdgesTest, AreWhereTheRangeJumpsByMoreThanTheThreshold) {
   for (const RangeScene& scene : awkwardScenes()) {
     for (const float threshold : {0.5f, kThreshold, 20.0f}) {
       EXPECT_EQ(host::edges(scene.range_px, threshold), oracle::edges(scene.range_px, threshold))
@@ -43,6 +43,20 @@ TEST(EdgesTest, AJumpOfExactlyTheThresholdIsNoEdge) {
   for (int x = 4; x < 8; ++x) range.at(x, 0) = 102.5f;
   EXPECT_EQ(host::edges(range, 2.5f), Image<float>(8, 1, 0.0f));
   EXPECT_NE(host::edges(range, 2.4f), Image<float>(8, 1, 0.0f));
+}
+
+TEST(EdgesTest, ASlopeIsNoEdgeAndAJumpOnItIs) {
+  // Without an inside a plate seen at a slant can neither be started from nor compared.
+  Image<float> range(16, 9);
+  for (int y = 0; y < 9; ++y) {
+    for (int x = 0; x < 16; ++x)
+      range.at(x, y) = 100.0f + 4.0f * static_cast<float>(x) + (x < 8 ? 0.0f : 9.0f);
+  }
+  const Image<float> edges = host::edges(range, kThreshold);
+  for (int y = 1; y < 8; ++y) {
+    for (int x = 1; x < 15; ++x)
+      EXPECT_EQ(edges.at(x, y), x == 7 || x == 8 ? 1.0f : 0.0f) << x << ", " << y;
+  }
 }
 
 TEST(EdgesTest, LieOnTheObjectNotOnTheBackground) {

@@ -104,6 +104,23 @@ TEST(ReferenceTest, EdgesAndDistancesAreThoseOfTheSceneStages) {
   }
 }
 
+TEST(ReferenceTest, APlateSeenAtASlantHasAnInside) {
+  // Views without one are worth nothing to the search: such plates would never be found.
+  ReferenceObject object = test::objectOf({{{-30.0, -20.0, -1.0}, {30.0, 20.0, 1.0}}}, 200, 64, 7);
+  host::renderReferences(object, {}, {});
+  int seen_at_a_slant = 0;
+  for (int view = 0; view < 200; ++view) {
+    const double across = object.views[static_cast<std::size_t>(view)].rotation[2].z;
+    if (std::abs(across) < 0.35 || std::abs(across) > 0.5) continue;  // 60 to 70 degrees
+    ++seen_at_a_slant;
+    int inside = 0;
+    for (int i = 0; i < 64 * 64; ++i)
+      inside += texelAt(object, view, i % 64, i / 64).r > 0.0f ? 1 : 0;
+    EXPECT_GT(inside, object.views[static_cast<std::size_t>(view)].area_px / 3) << "view " << view;
+  }
+  EXPECT_GT(seen_at_a_slant, 10);
+}
+
 TEST(ReferenceTest, BoxAreaAndAnchorDescribeTheTile) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 10, 64, 3);
   host::renderReferences(object, {}, {});

@@ -26,14 +26,19 @@ Image<float> median(const Image<float>& range) {
 
 Image<float> edges(const Image<float>& range, float threshold) {
   Image<float> result(range.width(), range.height(), 0.0f);
+  // What lies outside is what is nearest to it inside.
+  const auto at = [&](int x, int y) {
+    return range.at(std::clamp(x, 0, range.width() - 1), std::clamp(y, 0, range.height() - 1));
+  };
+  const int across[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
   for (int y = 0; y < range.height(); ++y) {
     for (int x = 0; x < range.width(); ++x) {
-      if (range.at(x, y) == 0.0f) continue;
-      for (int i = 0; i < 9; ++i) {
-        const int nx = x + i % 3 - 1;
-        const int ny = y + i / 3 - 1;
-        if (!range.contains(nx, ny)) continue;
-        if (std::fabs(range.at(nx, ny) - range.at(x, y)) > threshold) result.at(x, y) = 1.0f;
+      const float here = at(x, y);
+      for (const auto& [dx, dy] : across) {
+        const float to = at(x + dx, y + dy) - here;
+        const float from = here - at(x - dx, y - dy);
+        const bool jumps = std::fabs(to) > threshold || std::fabs(from) > threshold;
+        if (here != 0.0f && jumps && std::fabs(to - from) > threshold) result.at(x, y) = 1.0f;
       }
     }
   }
