@@ -34,9 +34,17 @@ RP_BODY float medianPixel(int x, int y, int width, int height, const Read& read)
 
 template <typename Read>
 RP_BODY float edgePixel(int x, int y, int width, int height, const Read& read, float threshold_px) {
-  float nine[9];
-  readNine(x, y, width, height, read, nine);
-  return edgeOfNine(nine, threshold_px);
+  const auto stepAt = [&](int u, int v) {
+    float nine[9];
+    readNine(u, v, width, height, read, nine);
+    return stepOfNine(nine, threshold_px);
+  };
+  // Most pixels are level, most others jumps: few need their neighbours.
+  const float here = stepAt(x, y);
+  if (here != kSteep) return here == kJump ? 1.0f : 0.0f;
+  float steps[9];
+  readNine(x, y, width, height, stepAt, steps);
+  return edgeOfSteps(steps);
 }
 
 /// A pixel on which nothing was splatted: later than every range, whose bits are ordered like the

@@ -1,4 +1,4 @@
-// 1 where the range jumps (paper Sect. 5.1). Twin of host::edges.
+// 1 where the range jumps (paper Sect. 5.1), see stepOfNine and edgeOfSteps. Twin of host::edges.
 uniform sampler2D u_range;
 uniform float u_threshold_px;
 flat in highp ivec4 v_bounds;
@@ -8,18 +8,36 @@ layout(location = 0) out highp float o_edge;
 #define RP_RANGE r
 #endif
 
-void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
-  float here = texelFetch(u_range, pixel, 0).RP_RANGE;
-  // A slope goes on across the pixel; a jump does not.
-  float most = 0.0;
+const int kLevel = 0;
+const int kSteep = 1;
+const int kJump = 2;
+
+ivec2 inside(ivec2 pixel) { return clamp(pixel, v_bounds.xy, v_bounds.zw - 1); }
+
+float rangeAt(ivec2 pixel) { return texelFetch(u_range, inside(pixel), 0).RP_RANGE; }
+
+int stepAt(ivec2 pixel) {
+  float here = rangeAt(pixel);
+  if (here == 0.0) return kLevel;
+  float farthest = 0.0;
+  float uneven = 0.0;
   for (int i = 0; i < 4; ++i) {
     ivec2 aside = i == 3 ? ivec2(-1, 0) : ivec2(i - 1, -1);
-    ivec2 low = clamp(pixel + aside, v_bounds.xy, v_bounds.zw - 1);
-    ivec2 high = clamp(pixel - aside, v_bounds.xy, v_bounds.zw - 1);
-    float before = texelFetch(u_range, low, 0).RP_RANGE - here;
-    float after = texelFetch(u_range, high, 0).RP_RANGE - here;
-    most = max(most, min(max(abs(before), abs(after)), abs(before + after)));
+    float before = rangeAt(pixel + aside) - here;
+    float after = rangeAt(pixel - aside) - here;
+    float most = max(abs(before), abs(after));
+    farthest = max(farthest, most);
+    uneven = max(uneven, min(most, abs(before + after)));
   }
-  o_edge = here != 0.0 && most > u_threshold_px ? 1.0 : 0.0;
+  return uneven > u_threshold_px ? kJump : farthest > u_threshold_px ? kSteep : kLevel;
+}
+
+void main() {
+  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  // Most pixels are level, most others jumps: few need their neighbours.
+  int most = stepAt(pixel);
+  if (most == kSteep) {
+    for (int i = 0; i < 9; ++i) most = max(most, stepAt(inside(pixel + ivec2(i % 3 - 1, i / 3 - 1))));
+  }
+  o_edge = most == kJump ? 1.0 : 0.0;
 }

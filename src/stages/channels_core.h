@@ -44,21 +44,36 @@ RP_HD float medianOfNine(float (&p)[9]) {
   return smaller(p[4], p[2]);
 }
 
-/// 1 where the middle of the nine, p[4], is no background and the range jumps there: by more than
-/// the threshold to one side, and by more than the threshold more than to the side across. Differs
-/// from the paper, which asks for the jump alone: there a steep face is nothing but edges, and a
-/// plate seen at a slant has no inside that could be compared.
-RP_HD float edgeOfNine(const float (&p)[9], float threshold_px) {
+/// How the range changes at the middle of nine pixels.
+inline constexpr float kLevel = 0.0f;  ///< no neighbour is farther than the threshold; background
+inline constexpr float kSteep = 1.0f;  ///< one is, on a slope that goes on across the pixel
+inline constexpr float kJump = 2.0f;   ///< one is, by more than the threshold more than across
+
+RP_HD float stepOfNine(const float (&p)[9], float threshold_px) {
   using namespace channels_detail;
   const float here = p[4];
-  float most = 0.0f;
+  float farthest = 0.0f;
+  float uneven = 0.0f;
   for (int i = 0; i < 4; ++i) {
     const float before = p[i] - here;
     const float after = p[8 - i] - here;
-    const float jump = larger(magnitude(before), magnitude(after));
-    most = larger(most, smaller(jump, magnitude(before + after)));
+    const float most = larger(magnitude(before), magnitude(after));
+    farthest = larger(farthest, most);
+    uneven = larger(uneven, smaller(most, magnitude(before + after)));
   }
-  return here != 0.0f && most > threshold_px ? 1.0f : 0.0f;
+  const float steep = farthest > threshold_px ? kSteep : kLevel;
+  const float step = uneven > threshold_px ? kJump : steep;
+  return here != 0.0f ? step : kLevel;
+}
+
+/// 1 where the steps of nine pixels make the middle one an edge: it is a jump, or steep beside one.
+/// Differs from the paper, which takes all that is steep: there a slanted face is nothing but
+/// edges, and a plate so seen has no inside to start from or to compare. What is steep beside a
+/// jump is where a sensor smears it.
+RP_HD float edgeOfSteps(const float (&steps)[9]) {
+  float most = 0.0f;
+  for (int i = 0; i < 9; ++i) most = channels_detail::larger(most, steps[i]);
+  return steps[4] != kLevel && most == kJump ? 1.0f : 0.0f;
 }
 
 }  // namespace rangepose

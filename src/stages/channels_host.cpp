@@ -52,8 +52,9 @@ Image<float> median(const Image<float>& range) {
 }
 
 Image<float> edges(const Image<float>& range_px, float threshold_px) {
-  return fromNine(range_px,
-                  [threshold_px](float(&nine)[9]) { return edgeOfNine(nine, threshold_px); });
+  const Image<float> steps = fromNine(
+      range_px, [threshold_px](float(&nine)[9]) { return stepOfNine(nine, threshold_px); });
+  return fromNine(steps, [](float(&nine)[9]) { return edgeOfSteps(nine); });
 }
 
 Image<EdtTexel> distanceTexels(const Image<float>& range_px,

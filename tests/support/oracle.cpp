@@ -25,20 +25,32 @@ Image<float> median(const Image<float>& range) {
 }
 
 Image<float> edges(const Image<float>& range, float threshold) {
-  Image<float> result(range.width(), range.height(), 0.0f);
   // What lies outside is what is nearest to it inside.
-  const auto at = [&](int x, int y) {
-    return range.at(std::clamp(x, 0, range.width() - 1), std::clamp(y, 0, range.height() - 1));
+  const auto at = [](const auto& image, int x, int y) {
+    return image.at(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
   };
+  Image<float> steep(range.width(), range.height(), 0.0f);
+  Image<float> jumps(range.width(), range.height(), 0.0f);
   const int across[4][2] = {{1, 0}, {0, 1}, {1, 1}, {1, -1}};
   for (int y = 0; y < range.height(); ++y) {
     for (int x = 0; x < range.width(); ++x) {
-      const float here = at(x, y);
+      const float here = range.at(x, y);
       for (const auto& [dx, dy] : across) {
-        const float to = at(x + dx, y + dy) - here;
-        const float from = here - at(x - dx, y - dy);
-        const bool jumps = std::fabs(to) > threshold || std::fabs(from) > threshold;
-        if (here != 0.0f && jumps && std::fabs(to - from) > threshold) result.at(x, y) = 1.0f;
+        const float to = at(range, x + dx, y + dy) - here;
+        const float from = here - at(range, x - dx, y - dy);
+        const bool far = std::fabs(to) > threshold || std::fabs(from) > threshold;
+        if (here == 0.0f || !far) continue;
+        steep.at(x, y) = 1.0f;
+        if (std::fabs(to - from) > threshold) jumps.at(x, y) = 1.0f;
+      }
+    }
+  }
+  Image<float> result = jumps;
+  for (int y = 0; y < range.height(); ++y) {
+    for (int x = 0; x < range.width(); ++x) {
+      for (int i = 0; i < 9; ++i) {
+        const bool beside = at(jumps, x + i % 3 - 1, y + i / 3 - 1) != 0.0f;
+        if (steep.at(x, y) != 0.0f && beside) result.at(x, y) = 1.0f;
       }
     }
   }
