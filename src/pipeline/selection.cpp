@@ -20,6 +20,7 @@ constexpr double kFaint = 0.02;       // confidence below which a pose is nobody
 constexpr double kFit = 100.0;
 constexpr double kWorthTurning = 0.1;  // confidence
 constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
+constexpr double kFound = 0.5;         // confidence from which on a part hides others
 
 }  // namespace
 
@@ -47,7 +48,9 @@ bool Selection::knows(const Candidate& candidate) const { return find(candidate)
 void Selection::add(const std::vector<Candidate>& candidates) {
   std::vector<Entry> added;
   for (const Candidate& candidate : candidates) {
-    if (candidate.confidence >= std::min(kFaint, min_confidence_)) added.push_back({candidate, {}});
+    if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
+    Entry& entry = added.emplace_back();
+    entry.candidate = entry.alone = candidate;
   }
   parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -55,14 +58,38 @@ void Selection::add(const std::vector<Candidate>& candidates) {
   });
   for (Entry& entry : added) {
     if (const Entry* known = find(entry.candidate)) {
-      if (known->candidate.rank >= entry.candidate.rank) continue;
+      if (known->alone.rank >= entry.alone.rank) continue;
       entries_.erase(entries_.begin() + (known - entries_.data()));
     }
     entries_.push_back(std::move(entry));
   }
+  judgeAmongOthers();
+}
+
+void Selection::orderByRank() {
   std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
     return a.candidate.rank > b.candidate.rank;
   });
+}
+
+void Selection::judgeAmongOthers() {
+  constexpr double kSlack = 0.5;  // tolerances
+  for (Entry& entry : entries_) entry.candidate = entry.alone;
+  orderByRank();
+  FoundParts found(depth_.depth_mm.size());
+  for (const Entry* entry : chosen()) {
+    if (entry->candidate.confidence >= kFound) found.add(entry->pixels, entry->exit_mm);
+  }
+  for (Entry& entry : entries_) {
+    const ReferenceObject& object =
+        database_.objects[static_cast<std::size_t>(entry.candidate.object)];
+    const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
+    const double share = found.coveredShare(entry.pixels, entry.buried, slack_mm);
+    if (share > 0.0) {
+      setConfidence(entry.candidate, uncovered(entry.alone.check, share), meanVisibleArea(object));
+    }
+  }
+  orderByRank();
 }
 
 void Selection::describe(Entry& entry) const {
@@ -75,6 +102,8 @@ void Selection::describe(Entry& entry) const {
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
   entry.pixels = explainedPixels(surface, window, depth_, same_mm);
+  entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
+  entry.buried = buriedPixels(surface, window, depth_, checkOptionsFor(object, noise_mm_));
   const CheckResult& check = candidate.check;
   if (!(check.explained > 0.0)) return;
   entry.fit =

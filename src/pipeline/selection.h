@@ -6,6 +6,7 @@
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "pipeline/occlusion.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/refine.h"
 
@@ -38,14 +39,21 @@ class Selection {
 
  private:
   struct Entry {
-    Candidate candidate;
+    Candidate candidate;               ///< judged among the others
+    Candidate alone;                   ///< as it was added
     std::vector<std::int32_t> pixels;  ///< explained ones, by index
+    std::vector<float> exit_mm;        ///< where rays through these leave the part
+    std::vector<BuriedPixel> buried;
     double fit = 0.0;     ///< surface explained less surface contradicted [mean visible areas]
     bool turned = false;  ///< whether its turned copies were given away
   };
   const Entry* find(const Candidate& candidate) const;
   /// Fills in what follows from the candidate and the image.
   void describe(Entry& entry) const;
+  /// Orders the poses, surest first, then judges all anew: what found parts hide of a pose does not
+  /// speak against it.
+  void judgeAmongOthers();
+  void orderByRank();
   /// Log odds among poses for the same surface.
   static double preference(const Entry& entry);
   /// Those that share no surface, in the order of the surest pose for it.

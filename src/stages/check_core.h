@@ -125,6 +125,23 @@ RP_HD CheckRules checkRules(const CheckOptions& options, int normal_reach) {
   return {options, std::cos(options.max_tilt_rad), normal_reach};
 }
 
+/// Where a model's surface lies from the data.
+enum class GapKind : int { kAgrees, kContradicted, kBuried, kHidden };
+
+/// Depth difference along the model's normal: on a slope it is smaller than along the ray.
+RP_HD double gapAlongNormal(const SurfaceTexel& model, double seen_mm) {
+  const double slant = static_cast<double>(std::abs(model.z));
+  return std::abs(seen_mm - static_cast<double>(model.w)) * (slant > 0.3 ? slant : 0.3);
+}
+
+RP_HD GapKind gapKind(const SurfaceTexel& model, double seen_mm, const CheckOptions& options) {
+  const double distance = gapAlongNormal(model, seen_mm);
+  if (distance <= options.tolerance_mm) return GapKind::kAgrees;
+  if (seen_mm > static_cast<double>(model.w)) return GapKind::kContradicted;
+  const bool just = distance <= options.buried_tolerances * options.tolerance_mm;
+  return just ? GapKind::kBuried : GapKind::kHidden;
+}
+
 /// `model` against the data at camera pixel (u, v).
 template <typename Read>
 RP_HD void judgePixel(const SurfaceTexel& model,
@@ -140,15 +157,14 @@ RP_HD void judgePixel(const SurfaceTexel& model,
     tally.missing += 1.0;
     return;
   }
-  const double gap = seen - static_cast<double>(model.w);
-  // Along the model's normal a depth difference on a slope is smaller than along the ray.
-  const double slant = static_cast<double>(std::abs(model.z));
-  const double distance = std::abs(gap) * (slant > 0.3 ? slant : 0.3);
-  if (distance > options.tolerance_mm) {
-    const bool just = distance <= options.buried_tolerances * options.tolerance_mm;
-    (gap > 0.0 ? tally.contradicted : just ? tally.buried : tally.hidden) += 1.0;
+  const GapKind kind = gapKind(model, seen, options);
+  if (kind != GapKind::kAgrees) {
+    (kind == GapKind::kContradicted ? tally.contradicted
+     : kind == GapKind::kBuried     ? tally.buried
+                                    : tally.hidden) += 1.0;
     return;
   }
+  const double distance = gapAlongNormal(model, seen);
   const double ratio = distance / options.tolerance_mm;
   double agreement = 1.0 - 0.5 * ratio * ratio;
   const typename Measured<Read>::Vector normal = measured.normal(u, v, rules.normal_reach);

@@ -1,0 +1,86 @@
+#include "pipeline/occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rangepose {
+
+std::vector<BuriedPixel> buriedPixels(const Image<SurfaceTexel>& surface,
+                                      const SurfaceWindow& window,
+                                      const DepthImage& depth,
+                                      const CheckOptions& options) {
+  std::vector<BuriedPixel> pixels;
+  for (int y = 0; y < surface.height(); ++y) {
+    for (int x = 0; x < surface.width(); ++x) {
+      const SurfaceTexel& texel = surface.at(x, y);
+      const float seen = depth.depth_mm.at(window.x0 + x, window.y0 + y);
+      if (!(texel.w > 0.0f && seen > 0.0f && seen < texel.w)) continue;
+      if (gapKind(texel, static_cast<double>(seen), options) != GapKind::kBuried) continue;
+      pixels.push_back({(window.y0 + y) * depth.camera.width + window.x0 + x, texel.w});
+    }
+  }
+  return pixels;
+}
+
+std::vector<float> exitDepths(const Mesh& mesh,
+                              const Pose& camera_from_object,
+                              const Camera& camera,
+                              const SurfaceWindow& window,
+                              const std::vector<std::int32_t>& pixels) {
+  Mesh away;
+  away.vertices = mesh.vertices;
+  const auto corner = [&](unsigned index) {
+    return camera_from_object * glm::dvec3(mesh.vertices[index]);
+  };
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const glm::dvec3 a = corner(triangle.x);
+    const glm::dvec3 normal = glm::cross(corner(triangle.y) - a, corner(triangle.z) - a);
+    if (glm::dot(normal, camera.viewingRay(a)) > 0.0) away.triangles.push_back(triangle);
+  }
+  const Image<SurfaceTexel> far = host::renderSurface(away, camera, camera_from_object, window);
+  std::vector<float> depths;
+  depths.reserve(pixels.size());
+  for (const std::int32_t at : pixels)
+    depths.push_back(far.at(at % camera.width - window.x0, at / camera.width - window.y0).w);
+  return depths;
+}
+
+void FoundParts::add(const std::vector<std::int32_t>& pixels, const std::vector<float>& exit_mm) {
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const auto at = static_cast<std::size_t>(pixels[i]);
+    if (part_[at] != kNone) continue;
+    part_[at] = count_;
+    exit_mm_[at] = exit_mm[i];
+  }
+  ++count_;
+}
+
+double FoundParts::coveredShare(const std::vector<std::int32_t>& explained,
+                                const std::vector<BuriedPixel>& buried,
+                                double slack_mm) const {
+  constexpr double kRival = 0.25;  // of what the pose explains
+  if (buried.empty()) return 0.0;
+  std::vector<int> shared(static_cast<std::size_t>(count_), 0);
+  for (const std::int32_t at : explained) {
+    const std::int32_t part = part_[static_cast<std::size_t>(at)];
+    if (part != kNone) ++shared[static_cast<std::size_t>(part)];
+  }
+  const auto covers = [&](const BuriedPixel& pixel) {
+    const auto at = static_cast<std::size_t>(pixel.at);
+    const std::int32_t part = part_[at];
+    if (part == kNone || !(exit_mm_[at] > 0.0f)) return false;
+    const int own = shared[static_cast<std::size_t>(part)];
+    if (own > kRival * static_cast<double>(explained.size())) return false;
+    return static_cast<double>(pixel.depth_mm) > static_cast<double>(exit_mm_[at]) - slack_mm;
+  };
+  const auto covered = std::count_if(buried.begin(), buried.end(), covers);
+  return static_cast<double>(covered) / static_cast<double>(buried.size());
+}
+
+CheckResult uncovered(CheckResult check, double share) {
+  check.hidden += share * check.buried;
+  check.buried -= share * check.buried;
+  return check;
+}
+
+}  // namespace rangepose
