@@ -74,6 +74,8 @@ void Selection::orderByRank() {
 
 void Selection::judgeAmongOthers() {
   constexpr double kSlack = 0.5;  // tolerances
+  // Of a pose under others that explains little, the rest fits anything.
+  constexpr double kEnough = 0.5;  // of a mean visible area
   for (Entry& entry : entries_) entry.candidate = entry.alone;
   orderByRank();
   FoundParts found(depth_.depth_mm.size());
@@ -83,10 +85,12 @@ void Selection::judgeAmongOthers() {
   for (Entry& entry : entries_) {
     const ReferenceObject& object =
         database_.objects[static_cast<std::size_t>(entry.candidate.object)];
+    const double mean_mm2 = meanVisibleArea(object);
+    if (entry.alone.check.explained_mm2 < kEnough * mean_mm2) continue;
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry.pixels, entry.buried, slack_mm);
     if (share > 0.0) {
-      setConfidence(entry.candidate, uncovered(entry.alone.check, share), meanVisibleArea(object));
+      setConfidence(entry.candidate, uncovered(entry.alone.check, share), mean_mm2);
     }
   }
   orderByRank();
