@@ -1,7 +1,8 @@
 #include "pipeline/occlusion.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "geometry/triangle_corners.h"
 
 namespace rangepose {
 
@@ -29,13 +30,11 @@ std::vector<float> exitDepths(const Mesh& mesh,
                               const std::vector<std::int32_t>& pixels) {
   Mesh away;
   away.vertices = mesh.vertices;
-  const auto corner = [&](unsigned index) {
-    return camera_from_object * glm::dvec3(mesh.vertices[index]);
-  };
   for (const glm::uvec3& triangle : mesh.triangles) {
-    const glm::dvec3 a = corner(triangle.x);
-    const glm::dvec3 normal = glm::cross(corner(triangle.y) - a, corner(triangle.z) - a);
-    if (glm::dot(normal, camera.viewingRay(a)) > 0.0) away.triangles.push_back(triangle);
+    const TriangleCorners corners(mesh, triangle);
+    const glm::dvec3 normal = camera_from_object.rotation * corners.cross();
+    const glm::dvec3 ray = camera.viewingRay(camera_from_object * corners.a);
+    if (glm::dot(normal, ray) > 0.0) away.triangles.push_back(triangle);
   }
   const Image<SurfaceTexel> far = host::renderSurface(away, camera, camera_from_object, window);
   std::vector<float> depths;
@@ -77,7 +76,7 @@ double FoundParts::coveredShare(const std::vector<std::int32_t>& explained,
   return static_cast<double>(covered) / static_cast<double>(buried.size());
 }
 
-CheckResult uncovered(CheckResult check, double share) {
+CheckResult withCovered(CheckResult check, double share) {
   check.hidden += share * check.buried;
   check.buried -= share * check.buried;
   return check;

@@ -58,7 +58,7 @@ class FoundParts {
   std::int32_t count_ = 0;
 };
 
-/// The check of a pose of which `share` of what is buried is hidden by found parts.
-CheckResult uncovered(CheckResult check, double share);
+/// The check of a pose of which found parts hide `share` of what is buried.
+CheckResult withCovered(CheckResult check, double share);
 
 }  // namespace rangepose

@@ -90,7 +90,7 @@ void Selection::judgeAmongOthers() {
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry.pixels, entry.buried, slack_mm);
     if (share > 0.0) {
-      setConfidence(entry.candidate, uncovered(entry.alone.check, share), mean_mm2);
+      setConfidence(entry.candidate, withCovered(entry.alone.check, share), mean_mm2);
     }
   }
   orderByRank();
@@ -106,7 +106,8 @@ void Selection::describe(Entry& entry) const {
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
   entry.pixels = explainedPixels(surface, window, depth_, same_mm);
-  entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
+  if (candidate.confidence >= kFound)
+    entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
   entry.buried = buriedPixels(surface, window, depth_, checkOptionsFor(object, noise_mm_));
   const CheckResult& check = candidate.check;
   if (!(check.explained > 0.0)) return;

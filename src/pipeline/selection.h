@@ -42,7 +42,7 @@ class Selection {
     Candidate candidate;               ///< judged among the others
     Candidate alone;                   ///< as it was added
     std::vector<std::int32_t> pixels;  ///< explained ones, by index
-    std::vector<float> exit_mm;        ///< where rays through these leave the part
+    std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
     std::vector<BuriedPixel> buried;
     double fit = 0.0;     ///< surface explained less surface contradicted [mean visible areas]
     bool turned = false;  ///< whether its turned copies were given away

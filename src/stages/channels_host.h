@@ -10,8 +10,9 @@ namespace rangepose::host {
 /// 3x3 median; pixels outside repeat the border (as OpenCV's medianBlur does).
 Image<float> median(const Image<float>& range);
 
-/// 1 where a pixel has a range and differs by more than `threshold_px` from one of its 8 neighbours
-/// (background counts as range 0); pixels outside the image count as equal.
+/// 1 where a pixel has a range and this jumps by more than `threshold_px` (background counts as
+/// range 0), and where it is that steep beside a jump: see stepOfNine() and edgeOfSteps(). Outside
+/// of the image its border repeats.
 Image<float> edges(const Image<float>& range_px, float threshold_px);
 
 /// The texels after `passes` passes of Algorithm 1.
