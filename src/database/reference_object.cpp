@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "database/reference_database.h"
 #include "geometry/flat_faces.h"
+#include "geometry/solid.h"
 #include "geometry/surface_sample.h"
 
 namespace rangepose {
@@ -23,6 +24,7 @@ ChannelOptions channelOptionsOf(const ReferenceObject& object) {
 }
 
 void measureShape(ReferenceObject& object) {
+  object.mesh.solid = isSolid(object.mesh);
   constexpr double kFlat = 0.02;       // of the diameter
   constexpr double kThinSheet = 0.05;  // of the diameter: thicker walls are no sheet
   const std::vector<FlatFace> faces = flatFaces(object.mesh, kFlat * object.diameter_mm);

@@ -12,6 +12,8 @@ struct Mesh {
   std::string name;                   ///< for messages and results, e.g. the file's stem
   std::vector<glm::vec3> vertices;    ///< [mm]
   std::vector<glm::uvec3> triangles;  ///< indices into vertices
+  /// The back of no face is seen from outside (isSolid() says so); false: not known.
+  bool solid = false;
 };
 
 struct Sphere {

@@ -5,11 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <tuple>
 #include <utility>
 
 #include "core/error.h"
+#include "geometry/solid.h"
 #include "sim/convex_hull.h"
 
 namespace rangepose {
@@ -88,26 +87,6 @@ SolidMass hullMass(const Mesh& mesh, const ConvexHull& hull) {
 }
 
 }  // namespace
-
-bool isClosed(const Mesh& mesh) {
-  std::map<std::tuple<float, float, float>, unsigned> position;
-  std::vector<unsigned> weld;
-  weld.reserve(mesh.vertices.size());
-  for (const glm::vec3& v : mesh.vertices) {
-    const auto next = static_cast<unsigned>(position.size());
-    weld.push_back(position.try_emplace({v.x, v.y, v.z}, next).first->second);
-  }
-  std::map<std::pair<unsigned, unsigned>, int> balance;
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    for (int k = 0; k < 3; ++k) {
-      const unsigned a = weld[triangle[k]];
-      const unsigned b = weld[triangle[(k + 1) % 3]];
-      if (a != b) balance[std::minmax(a, b)] += a < b ? 1 : -1;
-    }
-  }
-  return std::all_of(
-      balance.begin(), balance.end(), [](const auto& edge) { return edge.second == 0; });
-}
 
 SolidMass solidMass(const Mesh& mesh) {
   checkMesh(mesh);

@@ -43,10 +43,6 @@ struct PhysicsPart {
   std::vector<glm::dvec3> hull_mm;  ///< corners of the convex hull of all, object frame
 };
 
-/// Whether each edge of a triangle is an edge of another one that runs the other way, vertices at
-/// equal positions being one.
-bool isClosed(const Mesh& mesh);
-
 /// Exact for a closed mesh (integrals over the faces). Throws Error where there is no volume.
 SolidMass solidMass(const Mesh& mesh);
 

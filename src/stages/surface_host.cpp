@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "stages/simd.h"
 #include "stages/surface.h"
 
 namespace rangepose {
@@ -77,41 +78,66 @@ SurfaceWindow wholeWindowAround(const Camera& camera,
 namespace host {
 namespace {
 
-struct ScreenVertex {
-  glm::dvec3 point_mm;  ///< in the camera frame
-  glm::dvec2 pixel;     ///< in the window
-  glm::ivec2 first;     ///< pixel centres from here on are not left of or above it
-  glm::ivec2 last;      ///< pixel centres up to here are not right of or below it
-  bool in_front;
+/// A mesh as a camera sees it, vertex by vertex.
+struct ScreenMesh {
+  std::vector<glm::dvec3> points_mm;  ///< in the camera frame
+  std::vector<glm::dvec2> pixels;     ///< in the window
+  /// Pixel centres from `xy` on are not left of or above the vertex, those up to `zw` not right of
+  /// or below it.
+  std::vector<glm::ivec4> between;
+  bool in_front = true;  ///< all of it
 };
 
-/// Rounded down; far outside of any image it stays there.
-int floorOf(double value) {
-  constexpr double kFar = 1.0e9;
-  const double bounded = std::clamp(value, -kFar, kFar);
-  const int truncated = static_cast<int>(bounded);
-  return truncated - (static_cast<double>(truncated) > bounded ? 1 : 0);
+/// Triangles that reach nearer than this are left out.
+constexpr double kNearestMm = 1.0;
+
+/// Rounded down; where the sum is rounded, up, which only looks at a pixel more. The conversion
+/// cuts off towards zero, which far above zero is down.
+RP_ALWAYS_INLINE int floorOf(double value) {
+  constexpr int kAbove = 1 << 24;
+  return static_cast<int>(value + kAbove) - kAbove;
 }
 
-/// The plane of a triangle seen along the ray of a pixel.
-class DepthPlane {
- public:
-  DepthPlane(const Camera& camera, const glm::dvec3& normal, const glm::dvec3& point)
-      : camera_(camera), normal_(normal), offset_(glm::dot(normal, point)) {}
+/// Far outside of any image it stays there.
+RP_ALWAYS_INLINE double bounded(double pixel) {
+  constexpr double kFar = 1.0e6;
+  return std::min(kFar, std::max(-kFar, pixel));
+}
 
-  /// Depth along z at camera pixel (u, v).
-  double depth(double u, double v) const {
-    if (camera_.orthographic) {
-      const glm::dvec3 p = camera_.unproject(u, v, 0.0);
-      return (offset_ - normal_.x * p.x - normal_.y * p.y) / normal_.z;
-    }
-    return offset_ / glm::dot(normal_, camera_.unproject(u, v, 1.0));
+RP_SIMD_CLONES
+void projectVertices(const Mesh& mesh,
+                     const Camera& camera,
+                     const Pose& camera_from_object,
+                     const SurfaceWindow& window,
+                     ScreenMesh& screen) {
+  const glm::dvec2 origin(window.x0, window.y0);
+  const double step = window.step;
+  const std::size_t count = mesh.vertices.size();
+  double nearest_mm = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 point = camera_from_object * glm::dvec3(mesh.vertices[i]);
+    const glm::dvec2 pixel = (camera.project(point) - origin) / step;
+    const double u = bounded(pixel.x);
+    const double v = bounded(pixel.y);
+    screen.points_mm[i] = point;
+    screen.pixels[i] = pixel;
+    screen.between[i] = {-floorOf(-u), -floorOf(-v), floorOf(u), floorOf(v)};
+    nearest_mm = std::min(nearest_mm, point.z);
   }
+  screen.in_front = camera.orthographic || nearest_mm > kNearestMm;
+}
 
- private:
-  const Camera& camera_;
-  glm::dvec3 normal_;
-  double offset_;
+/// Corners of a triangle on the screen.
+struct Corners {
+  const ScreenMesh& mesh;
+  glm::uvec3 at;
+
+  const glm::dvec3& point(int corner) const { return mesh.points_mm[at[corner]]; }
+  const glm::dvec2& pixel(int corner) const { return mesh.pixels[at[corner]]; }
+  const glm::ivec4& between(int corner) const { return mesh.between[at[corner]]; }
+  bool inFront() const { return std::min({point(0).z, point(1).z, point(2).z}) > kNearestMm; }
+  /// Not of unit length, outwards where the corners go round it as seen from there.
+  glm::dvec3 normal() const { return glm::cross(point(1) - point(0), point(2) - point(0)); }
 };
 
 /// Positive to the inner side of an edge of a triangle, linear in the pixel.
@@ -124,77 +150,127 @@ struct EdgeLine {
       : by_x(sign * (from.y - to.y)),
         by_y(sign * (to.x - from.x)),
         at_origin(-(by_x * from.x + by_y * from.y)) {}
-  double at(double x, double y) const { return by_x * x + by_y * y + at_origin; }
+  /// At the row's start; a pixel farther right has `by_x` more.
+  double row(double y) const { return by_y * y + at_origin; }
 };
 
-/// The face that a triangle lies in, for its pixels. Made when the first of them is found: most
-/// triangles of a fine mesh have none.
-class Face {
+/// The depth of a face along the ray of a pixel: one number over another, both linear in the pixel.
+class FaceDepth {
  public:
-  Face(const ScreenVertex& a, const ScreenVertex& b, const ScreenVertex& c, const Camera& camera)
-      : normal_(unitNormal(a, b, c, camera)),
-        plane_(camera, normal_, a.point_mm),
-        low_z_(std::min({a.point_mm.z, b.point_mm.z, c.point_mm.z})),
-        high_z_(std::max({a.point_mm.z, b.point_mm.z, c.point_mm.z})) {}
-
-  /// A face seen edge on has no stable plane: its corners bound the depth.
-  float depth(double u, double v) const {
-    const double z = plane_.depth(u, v);
-    return static_cast<float>(std::isfinite(z) ? std::clamp(z, low_z_, high_z_) : low_z_);
+  FaceDepth(const Corners& corners, const Camera& camera, const SurfaceWindow& window)
+      : low_z_(std::min({corners.point(0).z, corners.point(1).z, corners.point(2).z})),
+        high_z_(std::max({corners.point(0).z, corners.point(1).z, corners.point(2).z})) {
+    const glm::dvec3 normal = corners.normal();
+    const double offset = glm::dot(normal, corners.point(0));
+    const glm::dvec3 corner = camera.unproject(window.x0, window.y0, 1.0);
+    const glm::dvec3 next =
+        camera.unproject(window.x0 + window.step, window.y0 + window.step, 1.0) - corner;
+    const double by_x = normal.x * next.x;
+    const double by_y = normal.y * next.y;
+    const double here = normal.x * corner.x + normal.y * corner.y;
+    if (camera.orthographic) {
+      over_ = {-by_x, -by_y, offset - here};
+      under_ = {0.0, 0.0, normal.z};
+    } else {
+      over_ = {0.0, 0.0, offset};
+      under_ = {by_x, by_y, here + normal.z};
+    }
   }
-  SurfaceTexel texel(float depth) const { return {glm::vec3(normal_), depth}; }
+
+  /// At pixel (x, y) of the window. A face seen edge on has no stable plane: its corners bound the
+  /// depth.
+  float at(int x, int y) const {
+    const double z = linear(over_, x, y) / linear(under_, x, y);
+    // Not "outside", so that a NaN counts as outside too.
+    return static_cast<float>(z >= low_z_ ? std::min(z, high_z_) : low_z_);
+  }
 
  private:
-  static glm::dvec3 unitNormal(const ScreenVertex& a,
-                               const ScreenVertex& b,
-                               const ScreenVertex& c,
-                               const Camera& camera) {
-    glm::dvec3 normal = glm::cross(b.point_mm - a.point_mm, c.point_mm - a.point_mm);
-    normal /= glm::length(normal);
-    const bool away =
-        glm::dot(normal, camera.orthographic ? glm::dvec3(0, 0, 1) : a.point_mm) > 0.0;
-    return away ? -normal : normal;
+  static double linear(const glm::dvec3& factors, double x, double y) {
+    return factors.x * x + factors.y * y + factors.z;
   }
 
-  glm::dvec3 normal_;
-  DepthPlane plane_;
   double low_z_;
   double high_z_;
+  glm::dvec3 over_{0.0};
+  glm::dvec3 under_{0.0};
 };
 
-void fillTriangle(const ScreenVertex& a,
-                  const ScreenVertex& b,
-                  const ScreenVertex& c,
+/// What is nearest at a pixel so far.
+struct Nearest {
+  float depth = std::numeric_limits<float>::max();
+  int triangle = -1;
+};
+
+/// `backs` of faces are drawn too.
+void fillTriangle(const Corners& corners,
+                  bool backs,
+                  int triangle,
                   const Camera& camera,
                   const SurfaceWindow& window,
-                  Image<SurfaceTexel>& surface) {
+                  Image<Nearest>& nearest) {
   // Pixels on an edge belong to both of its triangles: rounding leaves no gap [px^2].
   constexpr double kOnEdge = -1e-9;
-  // Most triangles of a fine mesh lie between pixel centres.
-  const int x0 = std::max(0, std::min({a.first.x, b.first.x, c.first.x}));
-  const int x1 = std::min(window.width - 1, std::max({a.last.x, b.last.x, c.last.x}));
-  if (x0 > x1) return;
-  const int y0 = std::max(0, std::min({a.first.y, b.first.y, c.first.y}));
-  const int y1 = std::min(window.height - 1, std::max({a.last.y, b.last.y, c.last.y}));
-  if (y0 > y1) return;
-  const glm::dvec2 ab = b.pixel - a.pixel;
-  const glm::dvec2 ac = c.pixel - a.pixel;
+  const glm::dvec2 ab = corners.pixel(1) - corners.pixel(0);
+  const glm::dvec2 ac = corners.pixel(2) - corners.pixel(0);
   const double area = ab.x * ac.y - ab.y * ac.x;
-  if (area == 0.0) return;
+  if (backs ? area == 0.0 : !(area < 0.0)) return;
+  // Most triangles of a fine mesh lie between pixel centres.
+  const glm::ivec4& a = corners.between(0);
+  const glm::ivec4& b = corners.between(1);
+  const glm::ivec4& c = corners.between(2);
+  const int x0 = std::max(0, std::min({a.x, b.x, c.x}));
+  const int x1 = std::min(window.width - 1, std::max({a.z, b.z, c.z}));
+  const int y0 = std::max(0, std::min({a.y, b.y, c.y}));
+  const int y1 = std::min(window.height - 1, std::max({a.w, b.w, c.w}));
+  if (x0 > x1 || y0 > y1) return;
   const double sign = area > 0.0 ? 1.0 : -1.0;
-  const EdgeLine first(a.pixel, b.pixel, sign);
-  const EdgeLine second(b.pixel, c.pixel, sign);
-  const EdgeLine third(c.pixel, a.pixel, sign);
-  std::optional<Face> face;
+  const EdgeLine first(corners.pixel(0), corners.pixel(1), sign);
+  const EdgeLine second(corners.pixel(1), corners.pixel(2), sign);
+  const EdgeLine third(corners.pixel(2), corners.pixel(0), sign);
+  // Made when the first pixel is found: most triangles of a fine mesh have none.
+  std::optional<FaceDepth> face;
   for (int y = y0; y <= y1; ++y) {
+    Nearest* const row = &nearest.at(0, y);
+    const double first_row = first.row(y);
+    const double second_row = second.row(y);
+    const double third_row = third.row(y);
     for (int x = x0; x <= x1; ++x) {
-      const double inside = std::min({first.at(x, y), second.at(x, y), third.at(x, y)});
+      const double inside = std::min(
+          {first_row + first.by_x * x, second_row + second.by_x * x, third_row + third.by_x * x});
       if (inside < kOnEdge) continue;
-      if (!face) face.emplace(a, b, c, camera);
-      const float depth = face->depth(window.x0 + x * window.step, window.y0 + y * window.step);
-      SurfaceTexel& texel = surface.at(x, y);
-      if (texel.w == 0.0f || depth < texel.w) texel = face->texel(depth);
+      if (!face) face.emplace(corners, camera, window);
+      const float depth = face->at(x, y);
+      if (depth < row[x].depth) row[x] = {depth, triangle};
     }
+  }
+}
+
+/// The unit normal, turned towards the camera.
+glm::vec3 normalTowards(const Camera& camera, const Corners& corners) {
+  const glm::dvec3 normal = glm::normalize(corners.normal());
+  const glm::dvec3 away = camera.orthographic ? glm::dvec3(0, 0, 1) : corners.point(0);
+  return glm::vec3(glm::dot(normal, away) > 0.0 ? -normal : normal);
+}
+
+/// Normals only of what is seen, and once for neighbours on one face.
+void shade(const Image<Nearest>& nearest,
+           const Mesh& mesh,
+           const ScreenMesh& screen,
+           const Camera& camera,
+           Image<SurfaceTexel>& surface) {
+  int last = -1;
+  glm::vec3 normal(0.0f);
+  auto texel = surface.begin();
+  for (const Nearest& pixel : nearest) {
+    if (pixel.triangle >= 0) {
+      if (pixel.triangle != last) {
+        last = pixel.triangle;
+        normal = normalTowards(camera, {screen, mesh.triangles[static_cast<std::size_t>(last)]});
+      }
+      *texel = {normal, pixel.depth};
+    }
+    ++texel;
   }
 }
 
@@ -206,24 +282,20 @@ Image<SurfaceTexel> renderSurface(const Mesh& mesh,
                                   const SurfaceWindow& window) {
   Image<SurfaceTexel> surface(window.width, window.height, SurfaceTexel(0.0f));
   if (surface.empty()) return surface;
-  std::vector<ScreenVertex> vertices(mesh.vertices.size());
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    ScreenVertex& vertex = vertices[i];
-    vertex.point_mm = camera_from_object * glm::dvec3(mesh.vertices[i]);
-    vertex.in_front = camera.orthographic || vertex.point_mm.z > 1.0;
-    if (!vertex.in_front) continue;
-    const glm::dvec2 pixel = camera.project(vertex.point_mm);
-    vertex.pixel = (pixel - glm::dvec2(window.x0, window.y0)) / static_cast<double>(window.step);
-    vertex.last = {floorOf(vertex.pixel.x), floorOf(vertex.pixel.y)};
-    vertex.first = {-floorOf(-vertex.pixel.x), -floorOf(-vertex.pixel.y)};
+  ScreenMesh screen;
+  screen.points_mm.resize(mesh.vertices.size());
+  screen.pixels.resize(mesh.vertices.size());
+  screen.between.resize(mesh.vertices.size());
+  projectVertices(mesh, camera, camera_from_object, window, screen);
+  // A camera inside of the solid would see its backs.
+  const bool backs = !mesh.solid || !screen.in_front;
+  Image<Nearest> nearest(window.width, window.height, Nearest{});
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const Corners corners{screen, mesh.triangles[i]};
+    if (!screen.in_front && !corners.inFront()) continue;
+    fillTriangle(corners, backs, static_cast<int>(i), camera, window, nearest);
   }
-  for (const glm::uvec3& triangle : mesh.triangles) {
-    const ScreenVertex& a = vertices[triangle.x];
-    const ScreenVertex& b = vertices[triangle.y];
-    const ScreenVertex& c = vertices[triangle.z];
-    if (!a.in_front || !b.in_front || !c.in_front) continue;
-    fillTriangle(a, b, c, camera, window, surface);
-  }
+  shade(nearest, mesh, screen, camera, surface);
   return surface;
 }
 

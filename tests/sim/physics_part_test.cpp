@@ -87,21 +87,6 @@ TEST(SolidMassTest, InsideOutOrFlatIsRefused) {
   EXPECT_THROW(solidMass(mesh), Error);
 }
 
-TEST(PhysicsPartTest, ClosedOrNot) {
-  Mesh mesh = angleMesh();
-  EXPECT_TRUE(isClosed(mesh));
-  mesh.triangles.pop_back();
-  EXPECT_FALSE(isClosed(mesh));
-  // Each face with vertices of its own is the same surface.
-  Mesh apart;
-  for (const glm::uvec3& t : angleMesh().triangles) {
-    const auto first = static_cast<unsigned>(apart.vertices.size());
-    for (int k = 0; k < 3; ++k) apart.vertices.push_back(angleMesh().vertices[t[k]]);
-    apart.triangles.emplace_back(first, first + 1, first + 2);
-  }
-  EXPECT_TRUE(isClosed(apart));
-}
-
 TEST(PhysicsPartTest, ASurfaceWithAHoleIsTakenAsItsHull) {
   Mesh mesh = boxMesh({0, 0, 0}, {30, 20, 10});
   mesh.triangles.pop_back();

@@ -116,6 +116,30 @@ TEST(SurfaceTest, ASphereIsRound) {
   }
 }
 
+TEST(SurfaceTest, ASolidLooksTheSameWithoutItsBacks) {
+  test::Random random(11);
+  Mesh mesh = test::meshOf(test::bracketBoxes());
+  int compared = 0;
+  for (const Camera& camera : cameras()) {
+    for (int i = 0; i < 20; ++i) {
+      const glm::dvec3 turn(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2));
+      // The last are so near that the part reaches behind the camera.
+      const Pose pose = poseAt(turn, {random.uniform(-9, 9), 0.0, i < 15 ? 150.0 : 15.0});
+      mesh.solid = false;
+      const auto all = host::renderSurface(mesh, camera, pose, test::wholeWindow(camera));
+      mesh.solid = true;
+      const auto fronts = host::renderSurface(mesh, camera, pose, test::wholeWindow(camera));
+      for (int v = 0; v < camera.height; ++v) {
+        for (int u = 0; u < camera.width; ++u) {
+          ASSERT_NEAR(all.at(u, v).w, fronts.at(u, v).w, kFlatMm) << u << ", " << v;
+          if (all.at(u, v).w > 0.0f) ++compared;
+        }
+      }
+    }
+  }
+  EXPECT_GT(compared, 10000);
+}
+
 TEST(SurfaceTest, ATiltedPlateFollowsItsPlaneUpToItsOutline) {
   const Mesh plate = test::plateMesh(120.0, 80.0);
   const Pose pose = poseAt({0.5, -0.4, 0.2}, {10.0, 5.0, 550.0});
