@@ -163,27 +163,33 @@ icpPartner(const DepthReader<Read>& scene, const glm::dvec3& point_mm, double re
   const int v = static_cast<int>(v_real);
   const double here = scene.read(u, v);
   if (here != 0.0 && here < point_mm.z - reach_mm) return nearest;
-  const double reach_px = reach_mm / scene.camera.pixelSpacingMm(point_mm.z);
-  const int share = static_cast<int>(reach_px / steps);
+  const double pixel_mm = scene.camera.pixelSpacingMm(point_mm.z);
+  const int share = static_cast<int>(reach_mm / pixel_mm / steps);
   const int spacing = share < 1 ? 1 : share;
   double best = reach_mm * reach_mm;
+  const auto consider = [&](int x, int y) {
+    const double depth = scene.read(x, y);
+    if (depth == 0.0) return;
+    // No nearer than along z alone.
+    const double behind = depth - point_mm.z;
+    if (!(behind * behind < best)) return;
+    const glm::dvec3 candidate = scene.camera.unproject(x, y, depth);
+    const glm::dvec3 gap = candidate - point_mm;
+    const double squared = glm::dot(gap, gap);
+    if (squared < best) {
+      best = squared;
+      nearest = {true, candidate};
+    }
+  };
+  consider(u, v);
+  // The point lies at most half a pixel from its own: no other comes nearer than this.
+  const double others_mm = (spacing - 0.5) * pixel_mm;
+  if (best <= others_mm * others_mm) return nearest;
   for (int dv = -steps; dv <= steps; ++dv) {
     for (int du = -steps; du <= steps; ++du) {
       const int x = u + du * spacing;
       const int y = v + dv * spacing;
-      if (!scene.contains(x, y)) continue;
-      const double depth = scene.read(x, y);
-      if (depth == 0.0) continue;
-      // No nearer than along z alone.
-      const double behind = depth - point_mm.z;
-      if (!(behind * behind < best)) continue;
-      const glm::dvec3 candidate = scene.camera.unproject(x, y, depth);
-      const glm::dvec3 gap = candidate - point_mm;
-      const double squared = glm::dot(gap, gap);
-      if (squared < best) {
-        best = squared;
-        nearest = {true, candidate};
-      }
+      if ((du != 0 || dv != 0) && scene.contains(x, y)) consider(x, y);
     }
   }
   return nearest;
