@@ -83,7 +83,7 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
 
 void setConfidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
   candidate.check = check;
-  candidate.rank = logOddsOf(check, check.explained_mm2 / mean_visible_mm2);
+  candidate.rank = logOddsOf(check, check.explained_mm2 / mean_visible_mm2, candidate.outside);
   candidate.confidence = probabilityOf(candidate.rank);
 }
 

@@ -9,7 +9,7 @@ namespace rangepose {
 // and of models/tuning, sheets flat and bent, boxes, slabs, rods and trays, alone and in heaps,
 // with sensor and rough noise, and each searched for among the others. What such bins hardly show
 // is set so that it does no harm there: poses of which little is seen count for less.
-double logOddsOf(const CheckResult& check, double visible_share) {
+double logOddsOf(const CheckResult& check, double visible_share, double outside) {
   const double seen = 1.0 - check.outline_covered;
   const double ends = seen > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / seen : 0.5;
   // A flat face can be laid on any face: only where it ends tells whether it belongs there. The
@@ -22,7 +22,7 @@ double logOddsOf(const CheckResult& check, double visible_share) {
          10.4 * ends + 10.0 * (ends - 0.8) * seen +
          3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
          flat * (2.0 * check.outline_covered + 60.0 * goes_on) - 8.0 * std::max(0.0, unseen - 0.4) -
-         40.0 * std::max(0.0, unseen - 0.55);
+         40.0 * std::max(0.0, unseen - 0.55) - 60.0 * outside;
 }
 
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }

@@ -45,9 +45,10 @@ struct Pass {
 
 class Estimator {
  public:
-  /// `foreground` is all of it.
+  /// `foreground` is all of it; noise and background of the image are in `result`.
   Estimator(const DepthImage& depth,
             const Image<std::uint8_t>& foreground,
+            const std::optional<BinBox>& bin,
             const ReferenceDatabase& database,
             const EstimateOptions& options,
             StageSet& stages,
@@ -59,6 +60,7 @@ class Estimator {
         result_(result),
         whole_(stages.uploadDepth(depth, foreground)),
         few_points_(fewPointsOfViews(database)),
+        enclosure_(depth, result.background, bin, database, result.noise_mm),
         tried_(database.objects.size()) {}
 
   /// Sect. 5 to 7 on what is left of the foreground, from starts that were not tried before.
@@ -74,7 +76,7 @@ class Estimator {
     const std::unique_ptr<ResidentDepth> left =
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : *whole_;
-    const RefineScene scene{depth_, resident, result_.noise_mm, few_points_, stages_};
+    const RefineScene scene{depth_, resident, result_.noise_mm, few_points_, enclosure_, stages_};
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
@@ -116,7 +118,7 @@ class Estimator {
     constexpr int kVerified = 2;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
-    const RefineScene scene{depth_, *whole_, result_.noise_mm, few_points_, stages_};
+    const RefineScene scene{depth_, *whole_, result_.noise_mm, few_points_, enclosure_, stages_};
     copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -226,6 +228,7 @@ class Estimator {
   Estimate& result_;
   std::unique_ptr<ResidentDepth> whole_;  ///< with all of the foreground
   std::vector<ViewPoints> few_points_;
+  Enclosure enclosure_;
   int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
 };
@@ -291,7 +294,7 @@ Estimate estimatePoses(const DepthImage& depth,
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
   }
   if (trace != nullptr) trace->foreground = foreground;
-  Estimator estimator(depth, foreground, database, options, stages, result);
+  Estimator estimator(depth, foreground, bin, database, options, stages, result);
   Selection selection(depth, database, result.noise_mm, options.min_score);
   Image<std::uint8_t> rest = foreground;
   std::vector<Candidate> chosen;

@@ -12,6 +12,8 @@
 namespace rangepose {
 namespace {
 
+constexpr int kCandidatesPerPiece = 16;
+
 using Points = std::vector<std::vector<SurfacePoint>>;  ///< of each candidate
 
 const ReferenceObject& objectOf(const Candidate& candidate, const ReferenceDatabase& database) {
@@ -51,7 +53,6 @@ struct CoarseRound {
 Points pointsOfViews(const std::vector<Candidate>& candidates,
                      const ReferenceDatabase& database,
                      int max_points) {
-  constexpr int kCandidatesPerPiece = 16;
   Points points(candidates.size());
   parallelFor(static_cast<int>(points.size()), kCandidatesPerPiece, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
@@ -177,6 +178,12 @@ void refineAll(std::vector<Candidate>& candidates,
     tasks.push_back(surfaceTask(
         objectOf(candidate, database), candidate.pose, scene.depth.camera, scene.noise_mm));
   }
+  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
+      Candidate& candidate = candidates[i];
+      candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
+    }
+  });
   setVerdicts(
       candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "database/reference_database.h"
+#include "pipeline/enclosure.h"
 #include "stages/check_host.h"
 #include "stages/stage_set.h"
 
@@ -20,6 +21,7 @@ struct RefineScene {
   const ResidentDepth& resident;  ///< it and the same without background, for the alignment
   double noise_mm;                ///< of the depth [mm]
   const std::vector<ViewPoints>& few_points;  ///< of fewPointsOfViews
+  const Enclosure& enclosure;                 ///< of the same image and database
   StageSet& stages;                           ///< of the path that `resident` is from
 };
 
@@ -32,6 +34,7 @@ struct Candidate {
   Pose rough;
   Pose pose;
   CheckResult check;
+  double outside = 0.0;  ///< Enclosure::outsideShare, once rendered and checked
   /// What candidates are ordered by: score and how much of the scene it explains; once rendered and
   /// checked the log odds of being right.
   double rank = 0.0;

@@ -22,16 +22,16 @@ CheckResult sure() {
 double oddsWith(double CheckResult::*field, double value) {
   CheckResult check = sure();
   check.*field = value;
-  return logOddsOf(check, 1.0);
+  return logOddsOf(check, 1.0, 0.0);
 }
 
 TEST(ConfidenceTest, APartSeenWholeIsSure) {
-  EXPECT_GT(probabilityOf(logOddsOf(sure(), 1.0)), 0.99);
-  EXPECT_LT(probabilityOf(logOddsOf(sure(), 0.01)), 0.5) << "a sliver fits anything";
+  EXPECT_GT(probabilityOf(logOddsOf(sure(), 1.0, 0.0)), 0.99);
+  EXPECT_LT(probabilityOf(logOddsOf(sure(), 0.01, 0.0)), 0.5) << "a sliver fits anything";
 }
 
 TEST(ConfidenceTest, WhatSpeaksAgainstAPoseMakesItLessSure) {
-  const double before = logOddsOf(sure(), 1.0);
+  const double before = logOddsOf(sure(), 1.0, 0.0);
   EXPECT_LT(oddsWith(&CheckResult::contradicted, 0.1), before) << "seen through";
   EXPECT_LT(oddsWith(&CheckResult::buried, 0.1), before) << "another surface lies over it";
   EXPECT_LT(oddsWith(&CheckResult::outline, 0.7), before) << "the data goes on";
@@ -45,7 +45,7 @@ double costOfFlatness(double flat) {
   round.outline = 0.8;
   CheckResult check = round;
   check.flat = flat;
-  return logOddsOf(round, 1.0) - logOddsOf(check, 1.0);
+  return logOddsOf(round, 1.0, 0.0) - logOddsOf(check, 1.0, 0.0);
 }
 
 TEST(ConfidenceTest, FlatFacesMustEndWithTheData) {

@@ -130,4 +130,10 @@ double Fixture::noiseMm() {
   return views(kAnyViews).estimate.noise_mm;
 }
 
+Enclosure Fixture::enclosure(int count) {
+  static_cast<void>(trace(count));
+  const Views& known = views(count);
+  return {demo(), known.estimate.background, std::nullopt, known.database, noiseMm()};
+}
+
 }  // namespace rangepose::bench

@@ -51,6 +51,8 @@ class Fixture {
   /// The demo image as the host path takes it, with the database of so many views.
   const EstimateTrace& trace(int views);
   double noiseMm();
+  /// Of the demo image, for parts of that database.
+  Enclosure enclosure(int views);
 
  private:
   struct Views;

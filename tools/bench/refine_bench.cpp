@@ -25,7 +25,9 @@ void addCoarse(Fixture& fixture, const Path& path) {
     const std::unique_ptr<ResidentDepth> resident =
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const std::vector<ViewPoints> few = fewPointsOfViews(fixture.database(kViews));
-    const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), few, *path.stages};
+    const Enclosure enclosure = fixture.enclosure(kViews);
+    const RefineScene scene{
+        fixture.demo(), *resident, fixture.noiseMm(), few, enclosure, *path.stages};
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
       benchmark::DoNotOptimize(refineCoarsely(
@@ -41,7 +43,9 @@ void addFine(Fixture& fixture, const Path& path) {
     const std::unique_ptr<ResidentDepth> resident =
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
     const std::vector<ViewPoints> few = fewPointsOfViews(fixture.database(kViews));
-    const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), few, *path.stages};
+    const Enclosure enclosure = fixture.enclosure(kViews);
+    const RefineScene scene{
+        fixture.demo(), *resident, fixture.noiseMm(), few, enclosure, *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(
         roughCandidates(fixture, scene), database, scene, EstimateOptions().effort().verified);
     for (auto _ : state) {

@@ -73,10 +73,13 @@ std::vector<Candidate> PpfEstimator::estimate(const DepthImage& depth,
   const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
   const double noise_mm = estimateDepthNoise(depth, everything);
   const ForegroundOptions background = foregroundOptionsFor(database_, noise_mm);
-  const Image<std::uint8_t> foreground =
-      foregroundMask(depth, findBackground(depth, background), bin, background);
-  Scene scene{
-      Verdict(depth, database_, noise_mm), cloudOf(depth, foreground, kNormalReach), {}, {}};
+  const std::vector<BackgroundPlane> planes = findBackground(depth, background);
+  const Image<std::uint8_t> foreground = foregroundMask(depth, planes, bin, background);
+  const Enclosure enclosure(depth, planes, bin, database_, noise_mm);
+  Scene scene{Verdict(depth, database_, enclosure, noise_mm),
+              cloudOf(depth, foreground, kNormalReach),
+              {},
+              {}};
   std::vector<Candidate> poses;
   for (std::size_t object = 0; object < database_.objects.size(); ++object) {
     scene.matched = thinned(scene.cloud, matchers_[object].front()->spacingMm());

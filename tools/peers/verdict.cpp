@@ -24,6 +24,7 @@ void Verdict::judge(Candidate& candidate) const {
   constexpr int kPixels = 112;
   const ReferenceObject& object = objectOf(candidate);
   const CheckOptions options = checkOptionsFor(object, noise_mm_);
+  candidate.outside = enclosure_.outsideShare(candidate.object, candidate.pose);
   setConfidence(candidate, checked(candidate, options, kPixels), meanVisibleArea(object));
 }
 

@@ -12,9 +12,12 @@ namespace rangepose::peers {
 
 class Verdict {
  public:
-  /// Depth image and database must outlive it; `noise_mm` is that of the image.
-  Verdict(const DepthImage& depth, const ReferenceDatabase& database, double noise_mm)
-      : depth_(depth), database_(database), noise_mm_(noise_mm) {}
+  /// Depth image, database and enclosure must outlive it; `noise_mm` is that of the image.
+  Verdict(const DepthImage& depth,
+          const ReferenceDatabase& database,
+          const Enclosure& enclosure,
+          double noise_mm)
+      : depth_(depth), database_(database), enclosure_(enclosure), noise_mm_(noise_mm) {}
 
   /// Sets check, rank and confidence as rangepose does for a pose that it has aligned.
   void judge(Candidate& candidate) const;
@@ -32,6 +35,7 @@ class Verdict {
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
+  const Enclosure& enclosure_;
   double noise_mm_;
 };
 

@@ -1,0 +1,40 @@
+// Where no part can be: under the floor or table, in and behind the walls of a bin.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/camera.h"
+#include "database/reference_database.h"
+#include "pipeline/foreground.h"
+
+namespace rangepose {
+
+class Enclosure {
+ public:
+  /// The depth image and the database must outlive it; `noise_mm` is that of the image. Without
+  /// planes and bin nothing is outside.
+  Enclosure(const DepthImage& depth,
+            std::vector<BackgroundPlane> planes,
+            const std::optional<BinBox>& bin,
+            const ReferenceDatabase& database,
+            double noise_mm);
+
+  /// How far a point of the camera frame lies outside [mm]; negative inside. What rises above a bin
+  /// may reach over its walls.
+  double beyondMm(const glm::dvec3& point) const;
+
+  /// Share of the surface of a posed object, 0..1, that lies clearly outside although the data in
+  /// front of it is inside: only by passing through floor or wall does a part get there.
+  double outsideShare(int object, const Pose& camera_from_object) const;
+
+ private:
+  const DepthImage& depth_;
+  std::vector<BackgroundPlane> planes_;
+  std::optional<BinBox> bin_;
+  Pose bin_from_camera_;
+  std::vector<std::vector<glm::dvec3>> points_;  ///< by object, on its surface, in its frame
+  std::vector<double> margins_mm_;               ///< by object
+};
+
+}  // namespace rangepose
