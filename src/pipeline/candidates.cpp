@@ -45,10 +45,12 @@ Order ordered(const std::vector<Candidate>& candidates, const Before& before) {
   return order;
 }
 
-/// Takes from the two orders in turn what is not yet there, `count` in all.
+/// Takes from the two orders in turn what is not yet there and lies where a part can be, `count` in
+/// all.
 std::vector<Candidate> takeInTurn(const Order& first,
                                   const Order& second,
                                   const ReferenceObject& object,
+                                  const Enclosure& enclosure,
                                   int count) {
   constexpr double kSame = 0.04;
   const PoseDistance distance(object);
@@ -59,7 +61,8 @@ std::vector<Candidate> takeInTurn(const Order& first,
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
         return distance.below(kSame, other.rough, candidate->rough);
       });
-      if (!known) kept.push_back(*candidate);
+      if (!known && enclosure.holds(candidate->object, candidate->rough))
+        kept.push_back(*candidate);
     }
   }
   return kept;
@@ -153,7 +156,8 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
         own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
     const Order by_rank =
         ordered(own, [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-    const std::vector<Candidate> kept = takeInTurn(by_error, by_rank, object, count);
+    const std::vector<Candidate> kept =
+        takeInTurn(by_error, by_rank, object, scene.enclosure, count);
     best.insert(best.end(), kept.begin(), kept.end());
   }
   return best;

@@ -8,6 +8,13 @@
 #include "geometry/surface_sample.h"
 
 namespace rangepose {
+namespace {
+
+constexpr int kPoints = 200;      // on the surface of an object
+constexpr int kFewPoints = 50;    // of them
+constexpr double kLittle = 0.05;  // share of the surface
+
+}  // namespace
 
 Enclosure::Enclosure(const DepthImage& depth,
                      std::vector<BackgroundPlane> planes,
@@ -18,12 +25,13 @@ Enclosure::Enclosure(const DepthImage& depth,
       planes_(std::move(planes)),
       bin_(bin),
       bin_from_camera_(bin ? bin->camera_from_bin.inverse() : Pose{}) {
-  constexpr int kPoints = 200;
   // As far a bin may be from where it is said to be, and a pose from where it will be.
   constexpr double kMargin = 0.05;  // of the diameter
   for (const ReferenceObject& object : database.objects) {
-    points_.push_back(surfaceSample(object.mesh, kPoints));
-    margins_mm_.push_back(kMargin * object.diameter_mm + 3.0 * noise_mm);
+    parts_.push_back({object.center_mm,
+                      object.radius_mm,
+                      kMargin * object.diameter_mm + 3.0 * noise_mm,
+                      surfaceSample(object.mesh, kPoints)});
   }
 }
 
@@ -40,13 +48,20 @@ double Enclosure::beyondMm(const glm::dvec3& point) const {
 }
 
 double Enclosure::outsideShare(int object, const Pose& camera_from_object) const {
-  if (planes_.empty() && !bin_) return 0.0;
-  const auto index = static_cast<std::size_t>(object);
-  const double margin_mm = margins_mm_[index];
+  return outsideShare(parts_[static_cast<std::size_t>(object)], camera_from_object, kPoints);
+}
+
+bool Enclosure::holds(int object, const Pose& camera_from_object) const {
+  const Part& part = parts_[static_cast<std::size_t>(object)];
+  return outsideShare(part, camera_from_object, kFewPoints) <= kLittle;
+}
+
+double Enclosure::outsideShare(const Part& part, const Pose& camera_from_object, int points) const {
   const Camera& camera = depth_.camera;
+  if (beyondMm(camera_from_object * part.center_mm) + part.radius_mm < part.margin_mm) return 0.0;
   const auto outside = [&](const glm::dvec3& on_object) {
     const glm::dvec3 point = camera_from_object * on_object;
-    if (!(beyondMm(point) > margin_mm)) return false;
+    if (!(beyondMm(point) > part.margin_mm)) return false;
     const glm::dvec2 pixel = glm::floor(camera.project(point) + 0.5);
     // Not "outside of the image", so that a NaN counts as outside too.
     if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < camera.width && pixel.y < camera.height)) {
@@ -54,11 +69,10 @@ double Enclosure::outsideShare(int object, const Pose& camera_from_object) const
     }
     const double seen_mm = depth_.depth_mm.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     if (!(seen_mm > 0.0 && seen_mm < point.z)) return false;
-    return beyondMm(camera.unproject(pixel.x, pixel.y, seen_mm)) < margin_mm;
+    return beyondMm(camera.unproject(pixel.x, pixel.y, seen_mm)) < part.margin_mm;
   };
-  const std::vector<glm::dvec3>& points = points_[index];
-  const auto count = std::count_if(points.begin(), points.end(), outside);
-  return static_cast<double>(count) / static_cast<double>(std::max<std::size_t>(1, points.size()));
+  const auto count = std::count_if(part.points.begin(), part.points.begin() + points, outside);
+  return static_cast<double>(count) / points;
 }
 
 }  // namespace rangepose

@@ -28,13 +28,24 @@ class Enclosure {
   /// front of it is inside: only by passing through floor or wall does a part get there.
   double outsideShare(int object, const Pose& camera_from_object) const;
 
+  /// Whether that share is small, by a few points: for many poses that are still rough.
+  bool holds(int object, const Pose& camera_from_object) const;
+
  private:
+  /// What is known of an object.
+  struct Part {
+    glm::dvec3 center_mm;            ///< of its bounding sphere, in its frame
+    double radius_mm;                ///< of that sphere
+    double margin_mm;                ///< what is outside by less may be inside
+    std::vector<glm::dvec3> points;  ///< on its surface, in its frame; any first ones are even
+  };
+  double outsideShare(const Part& part, const Pose& camera_from_object, int points) const;
+
   const DepthImage& depth_;
   std::vector<BackgroundPlane> planes_;
   std::optional<BinBox> bin_;
   Pose bin_from_camera_;
-  std::vector<std::vector<glm::dvec3>> points_;  ///< by object, on its surface, in its frame
-  std::vector<double> margins_mm_;               ///< by object
+  std::vector<Part> parts_;  ///< by object
 };
 
 }  // namespace rangepose
