@@ -22,7 +22,7 @@ double logOddsOf(const CheckResult& check, double visible_share, double outside)
          10.4 * ends + 10.0 * (ends - 0.8) * seen +
          3.7 * std::log(std::min(visible_share, 1.0) + 0.02) -
          flat * (2.0 * check.outline_covered + 60.0 * goes_on) - 8.0 * std::max(0.0, unseen - 0.4) -
-         40.0 * std::max(0.0, unseen - 0.55) - 60.0 * outside;
+         40.0 * std::max(0.0, unseen - 0.6) - 60.0 * outside;
 }
 
 double probabilityOf(double log_odds) { return 1.0 / (1.0 + std::exp(-log_odds)); }
