@@ -25,12 +25,10 @@ Enclosure::Enclosure(const DepthImage& depth,
       planes_(std::move(planes)),
       bin_(bin),
       bin_from_camera_(bin ? bin->camera_from_bin.inverse() : Pose{}) {
-  // As far a bin may be from where it is said to be, and a pose from where it will be.
-  constexpr double kMargin = 0.05;  // of the diameter
   for (const ReferenceObject& object : database.objects) {
     parts_.push_back({object.center_mm,
                       object.radius_mm,
-                      kMargin * object.diameter_mm + 3.0 * noise_mm,
+                      kEnclosureMargin * object.diameter_mm + 3.0 * noise_mm,
                       surfaceSample(object.mesh, kPoints)});
   }
 }

@@ -10,6 +10,10 @@
 
 namespace rangepose {
 
+/// A part may be outside by so much [share of its diameter]: as far as a bin may be from where it
+/// is said to be, and a pose from where it will be.
+inline constexpr double kEnclosureMargin = 0.05;
+
 class Enclosure {
  public:
   /// The depth image and the database must outlive it; `noise_mm` is that of the image. Without

@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "pipeline/depth_noise.h"
+#include "pipeline/input_warnings.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
 #include "pipeline/selection.h"
-#include "pipeline/unit_warnings.h"
 
 namespace rangepose {
 namespace {
@@ -284,6 +284,10 @@ Estimate estimatePoses(const DepthImage& depth,
   }
   Estimate result;
   result.warnings = unitWarnings(depth, database);
+  if (bin) {
+    const std::vector<std::string> of_bin = binWarnings(depth, *bin, database);
+    result.warnings.insert(result.warnings.end(), of_bin.begin(), of_bin.end());
+  }
   Image<std::uint8_t> foreground;
   {
     const ScopedTimer timer(result.times, "foreground");
