@@ -53,6 +53,7 @@ std::vector<Candidate> takeInTurn(const Order& first,
                                   const Enclosure& enclosure,
                                   int count) {
   constexpr double kSame = 0.04;
+  const double off_mm = 0.05 * object.diameter_mm;  // of a rough pose, into the floor
   const PoseDistance distance(object);
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -61,7 +62,7 @@ std::vector<Candidate> takeInTurn(const Order& first,
       const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
         return distance.below(kSame, other.rough, candidate->rough);
       });
-      if (!known && enclosure.holds(candidate->object, candidate->rough))
+      if (!known && enclosure.holds(candidate->object, candidate->rough, off_mm))
         kept.push_back(*candidate);
     }
   }

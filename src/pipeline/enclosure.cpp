@@ -46,20 +46,24 @@ double Enclosure::beyondMm(const glm::dvec3& point) const {
 }
 
 double Enclosure::outsideShare(int object, const Pose& camera_from_object) const {
-  return outsideShare(parts_[static_cast<std::size_t>(object)], camera_from_object, kPoints);
-}
-
-bool Enclosure::holds(int object, const Pose& camera_from_object) const {
   const Part& part = parts_[static_cast<std::size_t>(object)];
-  return outsideShare(part, camera_from_object, kFewPoints) <= kLittle;
+  return outsideShare(part, camera_from_object, part.margin_mm, kPoints);
 }
 
-double Enclosure::outsideShare(const Part& part, const Pose& camera_from_object, int points) const {
+bool Enclosure::holds(int object, const Pose& camera_from_object, double off_mm) const {
+  const Part& part = parts_[static_cast<std::size_t>(object)];
+  return outsideShare(part, camera_from_object, part.margin_mm + off_mm, kFewPoints) <= kLittle;
+}
+
+double Enclosure::outsideShare(const Part& part,
+                               const Pose& camera_from_object,
+                               double margin_mm,
+                               int points) const {
   const Camera& camera = depth_.camera;
-  if (beyondMm(camera_from_object * part.center_mm) + part.radius_mm < part.margin_mm) return 0.0;
+  if (beyondMm(camera_from_object * part.center_mm) + part.radius_mm < margin_mm) return 0.0;
   const auto outside = [&](const glm::dvec3& on_object) {
     const glm::dvec3 point = camera_from_object * on_object;
-    if (!(beyondMm(point) > part.margin_mm)) return false;
+    if (!(beyondMm(point) > margin_mm)) return false;
     const glm::dvec2 pixel = glm::floor(camera.project(point) + 0.5);
     // Not "outside of the image", so that a NaN counts as outside too.
     if (!(pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < camera.width && pixel.y < camera.height)) {
@@ -67,7 +71,7 @@ double Enclosure::outsideShare(const Part& part, const Pose& camera_from_object,
     }
     const double seen_mm = depth_.depth_mm.at(static_cast<int>(pixel.x), static_cast<int>(pixel.y));
     if (!(seen_mm > 0.0 && seen_mm < point.z)) return false;
-    return beyondMm(camera.unproject(pixel.x, pixel.y, seen_mm)) < part.margin_mm;
+    return beyondMm(camera.unproject(pixel.x, pixel.y, seen_mm)) < margin_mm;
   };
   const auto count = std::count_if(part.points.begin(), part.points.begin() + points, outside);
   return static_cast<double>(count) / points;

@@ -32,8 +32,9 @@ class Enclosure {
   /// front of it is inside: only by passing through floor or wall does a part get there.
   double outsideShare(int object, const Pose& camera_from_object) const;
 
-  /// Whether that share is small, by a few points: for many poses that are still rough.
-  bool holds(int object, const Pose& camera_from_object) const;
+  /// Whether that share is small, by a few points: for many poses that are still to be aligned.
+  /// Each may be `off_mm` from where it will be.
+  bool holds(int object, const Pose& camera_from_object, double off_mm) const;
 
  private:
   /// What is known of an object.
@@ -43,7 +44,10 @@ class Enclosure {
     double margin_mm;                ///< what is outside by less may be inside
     std::vector<glm::dvec3> points;  ///< on its surface, in its frame; any first ones are even
   };
-  double outsideShare(const Part& part, const Pose& camera_from_object, int points) const;
+  double outsideShare(const Part& part,
+                      const Pose& camera_from_object,
+                      double margin_mm,
+                      int points) const;
 
   const DepthImage& depth_;
   std::vector<BackgroundPlane> planes_;

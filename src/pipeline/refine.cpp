@@ -108,8 +108,9 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
     return &of_object[static_cast<std::size_t>(candidates[i].view)];
   };
   alignWithViews(candidates, database, scene, few, kMany);
-  std::erase_if(candidates,
-                [&](const Candidate& one) { return !scene.enclosure.holds(one.object, one.pose); });
+  std::erase_if(candidates, [&](const Candidate& one) {
+    return !scene.enclosure.holds(one.object, one.pose, 0.0);
+  });
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
   const Points more = pointsOfViews(candidates, database, kPoints);
   alignWithViews(

@@ -61,7 +61,7 @@ TEST_F(EnclosureTest, APartOnTheFloorIsInside) {
   for (const Enclosure& enclosure : {floorOnly(), bin()}) {
     EXPECT_EQ(enclosure.outsideShare(0, lying(0.0, 10.0)), 0.0);
     EXPECT_EQ(enclosure.outsideShare(0, lying(0.0, 7.0)), 0.0) << "a bin is known to so much";
-    EXPECT_TRUE(enclosure.holds(0, lying(0.0, 10.0)));
+    EXPECT_TRUE(enclosure.holds(0, lying(0.0, 10.0), 0.0));
   }
 }
 
@@ -70,7 +70,8 @@ TEST_F(EnclosureTest, APartThatSinksThroughTheFloorIsNot) {
     // The margin is 5.3 mm: the lowest 9.7 mm are outside, 4,340 of the rod's 8,800 mm^2.
     EXPECT_NEAR(enclosure.outsideShare(0, lying(0.0, -5.1)), 0.49, 0.03);
     EXPECT_EQ(enclosure.outsideShare(0, lying(0.0, -40.0)), 1.0);
-    EXPECT_FALSE(enclosure.holds(0, lying(0.0, -5.0)));
+    EXPECT_FALSE(enclosure.holds(0, lying(0.0, -5.0), 0.0));
+    EXPECT_TRUE(enclosure.holds(0, lying(0.0, -5.0), 15.0)) << "it may still come up";
   }
 }
 
@@ -78,8 +79,8 @@ TEST_F(EnclosureTest, NeitherIsOneInAWall) {
   // From 50 to 150 mm, the wall stands at 100 mm; what rises above the wall covers all.
   cover(kFloorMm - 90.0);
   EXPECT_NEAR(bin().outsideShare(0, lying(100.0, 30.0)), 0.45, 0.05);
-  EXPECT_FALSE(bin().holds(0, lying(100.0, 30.0)));
-  EXPECT_TRUE(floorOnly().holds(0, lying(100.0, 30.0)));
+  EXPECT_FALSE(bin().holds(0, lying(100.0, 30.0), 0.0));
+  EXPECT_TRUE(floorOnly().holds(0, lying(100.0, 30.0), 0.0));
 }
 
 TEST_F(EnclosureTest, WhatIsSeenOutsideIsNotHiddenByAWall) {
@@ -87,7 +88,7 @@ TEST_F(EnclosureTest, WhatIsSeenOutsideIsNotHiddenByAWall) {
   const Pose pose = lying(100.0, 70.0);
   test::measure(image_, database_.objects[0].mesh, pose);
   EXPECT_LT(bin().outsideShare(0, pose), 0.02) << "a border pixel or two";
-  EXPECT_TRUE(bin().holds(0, pose));
+  EXPECT_TRUE(bin().holds(0, pose, 0.0));
 }
 
 TEST_F(EnclosureTest, NothingIsKnownWithoutDataOrBackground) {

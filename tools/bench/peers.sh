@@ -3,13 +3,15 @@
 # cores, with the same bin boxes. Prints a Markdown table.
 #   tools/bench/peers.sh [OUT]         OUT: folder for bins and results, new; default build/peers
 # In the environment: BINS (default 3) and SEED (default 5200) of each set of bins, PARTS (default models/reporting/*.ply; these
-# were never tuned on), THREADS (default: all cores), BUILD_DIR (default build/release).
+# were never tuned on), NOISE (default sensor; `rangepose simulate --help`), THREADS (default: all cores), BUILD_DIR (default
+# build/release).
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 out=${1:-build/peers}
 bins=${BINS:-3}
 seed=${SEED:-5200}
+noise=${NOISE:-sensor}
 threads=${THREADS:-$(nproc)}
 build=${BUILD_DIR:-build/release}
 read -r -a parts <<< "${PARTS:-$(echo models/reporting/*.ply)}"
@@ -52,7 +54,7 @@ compare() {
   local mixed=()
   [[ $# -gt 1 ]] && mixed=(--mixed)
   {
-    "$rangepose" simulate "$@" "${mixed[@]}" -o "$set" --bins "$bins" --seed "$seed"
+    "$rangepose" simulate "$@" "${mixed[@]}" -o "$set" --bins "$bins" --seed "$seed" --noise "$noise"
     "$rangepose" build --bop "$set" -o "$set.rpdb"
     "$rangepose" estimate --db "$set.rpdb" --bop "$set" --csv "$set.rangepose.csv" --all --path host --threads "$threads"
     "$ppf" --db "$set.rpdb" --bop "$set" --csv "$set.ppf.csv" --threads "$threads"
@@ -64,7 +66,7 @@ compare() {
 echo "date:  $(date --iso-8601=seconds)"
 echo "cpu:   $(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)"
 echo "cores: $threads of $(nproc), load $(cut -d' ' -f1-3 /proc/loadavg)"
-echo "bins:  $bins of each part, seed $seed"
+echo "bins:  $bins of each part, seed $seed, noise $noise"
 echo
 echo "| bins of | system | parts visible >= 50 % | first pick right [%] | recall [%] | at 2 % [%] | precision [%] | AP | median error [% of diameter] | time [s an image] |"
 echo "|---|---|---|---|---|---|---|---|---|---|"
