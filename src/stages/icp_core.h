@@ -182,7 +182,8 @@ icpPartner(const DepthReader<Read>& scene, const glm::dvec3& point_mm, double re
     }
   };
   consider(u, v);
-  // The point lies at most half a pixel from its own: no other comes nearer than this.
+  // The point lies at most half a pixel from its own: no other comes nearer than this, but for the
+  // slant of the rays.
   const double others_mm = (spacing - 0.5) * pixel_mm;
   if (best <= others_mm * others_mm) return nearest;
   for (int dv = -steps; dv <= steps; ++dv) {
