@@ -16,8 +16,8 @@ inline constexpr double kEnclosureMargin = 0.05;
 
 class Enclosure {
  public:
-  /// The depth image and the database must outlive it; `noise_mm` is that of the image. Without
-  /// planes and bin nothing is outside.
+  /// The depth image must outlive it; `noise_mm` is that of the image. Without planes and bin
+  /// nothing is outside.
   Enclosure(const DepthImage& depth,
             std::vector<BackgroundPlane> planes,
             const std::optional<BinBox>& bin,
