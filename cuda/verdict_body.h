@@ -31,8 +31,7 @@ RP_BODY void judgeTaskPoints(Block& block,
   block.forEachThread([&](int thread) {
     CheckTally tally;
     for (int i = thread; i < task.point_count; i += Block::kThreads) {
-      const SurfacePoint& point = points[task.first_point + i];
-      judgePoint(point.position_mm, point.normal, task.camera_from_object, measured, rules, tally);
+      judgePoint(points[task.first_point + i], task.camera_from_object, measured, rules, tally);
     }
     tallies[thread] = tally;
   });

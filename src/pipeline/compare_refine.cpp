@@ -9,6 +9,7 @@ namespace rangepose {
 namespace {
 
 constexpr int kPoints = 220;
+constexpr double kRimReach = 0.08;  // of the diameter
 
 class RefineComparison {
  public:
@@ -75,7 +76,8 @@ class RefineComparison {
     IcpOptions icp;
     icp.first_reach_mm = 6.0 * tolerance;
     icp.last_reach_mm = tolerance;
-    points_.push_back(pointsOfView(object, candidate.view, kPoints));
+    icp.rim_reach_mm = kRimReach * object.diameter_mm;
+    points_.push_back(pointsAndRimOfView(object, candidate.view, kPoints));
     alignments_.push_back({nullptr, candidate.pose, object.center_mm, object.radius_mm, icp});
     verdicts_.push_back({nullptr,
                          candidate.pose,

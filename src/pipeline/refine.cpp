@@ -48,6 +48,7 @@ struct CoarseRound {
   int search_steps;
   double first_reach;      ///< share of the diameter
   double last_tolerances;  ///< reach of the last iteration, in tolerances
+  double rim_reach;        ///< share of the diameter
 };
 
 Points pointsOfViews(const std::vector<Candidate>& candidates,
@@ -56,7 +57,8 @@ Points pointsOfViews(const std::vector<Candidate>& candidates,
   Points points(candidates.size());
   parallelFor(static_cast<int>(points.size()), kCandidatesPerPiece, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      points[i] = pointsOfView(objectOf(candidates[i], database), candidates[i].view, max_points);
+      points[i] =
+          pointsAndRimOfView(objectOf(candidates[i], database), candidates[i].view, max_points);
     }
   });
   return points;
@@ -69,6 +71,9 @@ void alignWithViews(std::vector<Candidate>& candidates,
                     const RefineScene& scene,
                     const PointsOf& points,
                     const CoarseRound& round) {
+  // More than that of rendered surfaces: where a pose is far off, an end of the data is a surer
+  // guide than what happens to lie near its faces.
+  constexpr double kRimWeight = 0.2;
   std::vector<AlignTask> alignments;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
@@ -76,6 +81,8 @@ void alignWithViews(std::vector<Candidate>& candidates,
                                     round.last_tolerances * toleranceFor(object, scene.noise_mm),
                                     round.iterations);
     options.search_steps = round.search_steps;
+    options.rim_reach_mm = round.rim_reach * object.diameter_mm;
+    options.rim_weight = kRimWeight;
     alignments.push_back(
         {points(i), candidates[i].pose, object.center_mm, object.radius_mm, options});
   }
@@ -99,8 +106,8 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{8, 1, 0.20, 2.0};
-  constexpr CoarseRound kFew{8, 2, 0.06, 1.5};
+  constexpr CoarseRound kMany{8, 1, 0.20, 2.0, 0.12};
+  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08};
   constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;
   const PointsOf few = [&](std::size_t i) {

@@ -6,6 +6,7 @@
 #include "core/camera.h"
 #include "stages/device.h"
 #include "stages/surface.h"
+#include "stages/surface_points.h"
 
 namespace rangepose {
 
@@ -249,16 +250,16 @@ RP_HD void judgeSurfacePixel(const SurfaceTexel& texel,
   judgeBorder(surface_depth, window, measured, x, y, glm::dvec3(texel), rules.options, tally);
 }
 
-/// One point of an object's surface, given in its frame, at a pose.
+/// One point of an object at a pose; those of a rim have no say.
 template <typename Read>
-RP_HD void judgePoint(const glm::vec3& position_mm,
-                      const glm::vec3& point_normal,
+RP_HD void judgePoint(const SurfacePoint& own,
                       const Pose& camera_from_object,
                       const Measured<Read>& measured,
                       const CheckRules& rules,
                       CheckTally& tally) {
+  if (own.rim) return;
   const Camera& camera = measured.camera;
-  const glm::dvec3 point = camera_from_object * glm::dvec3(position_mm);
+  const glm::dvec3 point = camera_from_object * glm::dvec3(own.position_mm);
   if (!camera.orthographic && point.z <= 1.0) return;
   const glm::dvec2 projected = camera.project(point);
   const double u = std::floor(projected.x + 0.5);
@@ -269,7 +270,7 @@ RP_HD void judgePoint(const glm::vec3& position_mm,
     tally.missing += 1.0;
     return;
   }
-  const glm::vec3 normal(camera_from_object.rotation * glm::dvec3(point_normal));
+  const glm::vec3 normal(camera_from_object.rotation * glm::dvec3(own.normal));
   judgePixel(SurfaceTexel(normal, static_cast<float>(point.z)),
              measured,
              static_cast<int>(u),

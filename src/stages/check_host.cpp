@@ -33,7 +33,7 @@ CheckResult checkPoints(const std::vector<SurfacePoint>& points,
   const CheckRules rules = checkRules(options, kPointNormalReach);
   CheckTally tally;
   for (const SurfacePoint& point : points) {
-    judgePoint(point.position_mm, point.normal, camera_from_object, measured, rules, tally);
+    judgePoint(point, camera_from_object, measured, rules, tally);
   }
   return summarizeCheck(tally, options, 1.0, visible_mm2);
 }

@@ -17,7 +17,8 @@ CheckResult check(const Image<SurfaceTexel>& surface,
                   const CheckOptions& options);
 
 /// The same for points of the surface, without the outline (outline = 0, its share is left out of
-/// the score): cheap, for many hypotheses. `visible_mm2` is the area that the points stand for.
+/// the score): cheap, for many hypotheses. Points of rims have no say. `visible_mm2` is the area
+/// that the others stand for.
 CheckResult checkPoints(const std::vector<SurfacePoint>& points,
                         const Pose& camera_from_object,
                         double visible_mm2,

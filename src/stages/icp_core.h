@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "core/camera.h"
 #include "core/pose.h"
@@ -230,17 +231,18 @@ struct RimPartner {
   double beyond_mm;  ///< as far the data goes on beyond the rim; negative where it ends before
 };
 
-/// Where the data ends nearest to a rim on the line `out` (unit, the tangent) across it: the
-/// surface is followed from inside to outside, and what lies behind it or was not measured, twice
-/// in a row, ends it. Nearer data hides where the surface ends.
+/// Where the data ends nearest to a rim on the line `out` (unit, the tangent) across it. The data
+/// is followed from inside to outside, in the slope of `out`, from where it is first
+/// within the frame's reach of the line: a pose that is off in depth or slope meets the same end.
+/// What lies behind it or was not measured, twice in a row, ends it. Nearer data hides where it
+/// ends.
 template <typename Read>
 RP_HD RimPartner rimPartner(const DepthReader<Read>& scene,
                             const glm::dvec3& point_mm,
                             const glm::dvec3& out,
-                            double reach_mm,
-                            double gap_mm) {
+                            const IcpFrame& frame) {
   constexpr int kEnded = 2;
-  RimPartner nearest{false, reach_mm};
+  RimPartner nearest{false, frame.rim_reach_mm};
   if (!scene.camera.orthographic && point_mm.z <= 1.0) return nearest;
   const double step_mm = scene.camera.pixelSpacingMm(point_mm.z);
   const double across = std::sqrt(out.x * out.x + out.y * out.y);
@@ -249,7 +251,7 @@ RP_HD RimPartner rimPartner(const DepthReader<Read>& scene,
   const glm::dvec3 step = out * (step_mm / across);
   const glm::dvec2 pixel = scene.camera.project(point_mm);
   const glm::dvec2 pixel_step = scene.camera.project(point_mm + step) - pixel;
-  const int steps = static_cast<int>(std::ceil(reach_mm / step_mm)) + 1;
+  const int steps = static_cast<int>(std::ceil(frame.rim_reach_mm / step_mm)) + 1;
   const double u_margin = (steps + 1) * std::fabs(pixel_step.x) + 0.5;
   const double v_margin = (steps + 1) * std::fabs(pixel_step.y) + 0.5;
   // Not "outside", so that a NaN counts as outside too.
@@ -257,22 +259,44 @@ RP_HD RimPartner rimPartner(const DepthReader<Read>& scene,
         pixel.y < scene.height - 1 - v_margin)) {
     return nearest;
   }
-  const glm::dvec2 corner = pixel + 0.5;  // rounded to the nearest pixel when cut off
+  // Pixels as whole numbers of their 65536ths, rounded to the nearest one when shifted.
+  constexpr int kPixelBits = 16;
+  constexpr double kPixel = 1 << kPixelBits;
+  const auto du = static_cast<std::int64_t>(kPixel * pixel_step.x);
+  const auto dv = static_cast<std::int64_t>(kPixel * pixel_step.y);
+  std::int64_t u = static_cast<std::int64_t>(kPixel * (pixel.x + 0.5)) - steps * du;
+  std::int64_t v = static_cast<std::int64_t>(kPixel * (pixel.y + 0.5)) - steps * dv;
+  const float reach_mm = static_cast<float>(frame.reach_mm);
+  const float gap_mm = static_cast<float>(frame.rim_gap_mm);
+  float line_mm = static_cast<float>(point_mm.z - steps * step.z);
+  float shift_mm = 0.0f;  // of the data from the line
+  bool followed = false;
   int last_on = 0;
   int off = kEnded;  // nothing has begun that could end
   for (int i = -steps; i <= steps + 1; ++i) {
-    const glm::dvec2 at = corner + static_cast<double>(i) * pixel_step;
-    const double seen = scene.read(static_cast<int>(at.x), static_cast<int>(at.y));
-    const double behind = seen - (point_mm.z + i * step.z);
-    if (seen != 0.0 && behind < -gap_mm) {
+    const float seen =
+        scene.read(static_cast<int>(u >> kPixelBits), static_cast<int>(v >> kPixelBits));
+    const float behind_line = seen - line_mm;
+    u += du;
+    v += dv;
+    line_mm += static_cast<float>(step.z);
+    if (!followed && seen != 0.0f && std::fabs(behind_line) < reach_mm) {
+      followed = true;
+      shift_mm = behind_line;
+    }
+    const float behind = behind_line - shift_mm;
+    if (seen != 0.0f && behind < -gap_mm) {
       off = kEnded;
-    } else if (seen != 0.0 && behind < gap_mm) {
+    } else if (seen != 0.0f && behind < gap_mm) {
       last_on = i;
       off = 0;
+      shift_mm = behind_line;
     } else if (++off == kEnded) {
       const double beyond_mm = (last_on + 0.5) * step_mm;
       if (std::fabs(beyond_mm) < std::fabs(nearest.beyond_mm)) nearest = {true, beyond_mm};
     }
+    // Another end would lie farther out than here.
+    if (nearest.found && i * step_mm > std::fabs(nearest.beyond_mm)) return nearest;
   }
   return nearest;
 }
@@ -286,7 +310,7 @@ RP_HD bool addRim(IcpSums& sums,
                   const DepthReader<Read>& scene,
                   const glm::dvec3& point_mm,
                   const glm::dvec3& out) {
-  const RimPartner partner = rimPartner(scene, point_mm, out, frame.rim_reach_mm, frame.rim_gap_mm);
+  const RimPartner partner = rimPartner(scene, point_mm, out, frame);
   if (!partner.found) return false;
   const double across = std::sqrt(out.x * out.x + out.y * out.y);
   glm::dvec3 n(out.x / across, out.y / across, 0.0);

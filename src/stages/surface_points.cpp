@@ -7,6 +7,38 @@
 
 namespace rangepose {
 
+namespace {
+
+/// A point of a view, given in pixels of its tile and in range, in the object's frame.
+glm::vec3 inObject(const ReferenceObject& object,
+                   const glm::dmat3& object_from_view,
+                   double u,
+                   double v,
+                   double range_px) {
+  const double half = 0.5 * object.size;
+  const glm::dvec3 in_view(u + 0.5 - half, v + 0.5 - half, range_px - object.size);
+  return glm::vec3(object_from_view * (in_view * object.pixel_mm) + object.center_mm);
+}
+
+/// How fast the range of a view grows towards its rim at pixel (u, v), from what lies inside of it;
+/// 0 where it bends away from the viewer: that says nothing about where it ends. `across` is the
+/// way out, a unit vector.
+template <typename Range>
+double slopeAtRim(const Range& range, int u, int v, const glm::dvec2& across) {
+  constexpr double kNear = 1.5;  // from the rim, which may be rounded [px]
+  constexpr double kFar = 3.5;
+  constexpr double kSteepest = 2.0;
+  const glm::ivec2 near = glm::ivec2(glm::floor(glm::dvec2(u, v) - kNear * across + 0.5));
+  const glm::ivec2 far = glm::ivec2(glm::floor(glm::dvec2(u, v) - kFar * across + 0.5));
+  const double near_px = range(near.x, near.y);
+  const double far_px = range(far.x, far.y);
+  if (near_px == 0.0 || far_px == 0.0) return 0.0;
+  const double slope = (near_px - far_px) / glm::dot(glm::dvec2(near - far), across);
+  return std::abs(slope) < kSteepest ? slope : 0.0;
+}
+
+}  // namespace
+
 std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, int max_points) {
   const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
   const glm::ivec2 origin = object.tileOrigin(view);
@@ -24,15 +56,43 @@ std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, 
     for (int u = std::max(reference.box.x0, 1); u < std::min(reference.box.x1, object.size - 1);
          u += stride) {
       if (!usable(u, v)) continue;
-      const double half = 0.5 * object.size;
-      const glm::dvec3 in_view(
-          u + 0.5 - half, v + 0.5 - half, static_cast<double>(range(u, v)) - object.size);
       const glm::dvec3 normal = glm::normalize(glm::dvec3(0.5 * (range(u + 1, v) - range(u - 1, v)),
                                                           0.5 * (range(u, v + 1) - range(u, v - 1)),
                                                           -1.0));
-      points.push_back(
-          {glm::vec3(object_from_view * (in_view * object.pixel_mm) + object.center_mm),
-           glm::vec3(object_from_view * normal)});
+      points.push_back({inObject(object, object_from_view, u, v, static_cast<double>(range(u, v))),
+                        glm::vec3(object_from_view * normal)});
+    }
+  }
+  return points;
+}
+
+std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int max_points) {
+  const ReferenceView& reference = object.views[static_cast<std::size_t>(view)];
+  const glm::ivec2 origin = object.tileOrigin(view);
+  const glm::dmat3 object_from_view = glm::transpose(reference.rotation);
+  const int stride = rimStride(pointStride(reference.area_px, max_points));
+  const SurfaceWindow tile{0, 0, object.size, object.size, 1};
+  const auto range = [&](int u, int v) {
+    if (u < 0 || v < 0 || u >= object.size || v >= object.size) return 0.0f;
+    const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
+    return texel.a > 0.0f ? texel.g : 0.0f;
+  };
+  const auto surface = [&](int u, int v) { return SurfaceTexel(0.0f, 0.0f, 0.0f, range(u, v)); };
+  std::vector<SurfacePoint> points;
+  for (int v = reference.box.y0; v < reference.box.y1; ++v) {
+    for (int u = reference.box.x0; u < reference.box.x1; ++u) {
+      if (v % stride != stride / 2 && u % stride != stride / 2) continue;
+      if (range(u, v) == 0.0f || !isRim(surface, tile, u, v, stride)) continue;
+      const glm::dvec2 out = outOfSurface(surface, tile, u, v);
+      if (out == glm::dvec2(0.0)) continue;
+      const glm::dvec2 across = glm::normalize(out);
+      const glm::dvec3 tangent(across, slopeAtRim(range, u, v, across));
+      const double inside_px = 0.5 / (std::abs(across.x) + std::abs(across.y));
+      const glm::dvec3 end =
+          glm::dvec3(u, v, static_cast<double>(range(u, v))) + inside_px * tangent;
+      points.push_back({inObject(object, object_from_view, end.x, end.y, end.z),
+                        glm::vec3(object_from_view * glm::normalize(tangent)),
+                        true});
     }
   }
   return points;

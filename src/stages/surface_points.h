@@ -24,6 +24,10 @@ struct SurfacePoint {
 /// spread.
 std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, int max_points);
 
+/// Points of the rim of a database view: its outline, holes included. About two thirds as dense
+/// along it as those of pointsOfView.
+std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int max_points);
+
 /// Points of a surface rendered at `camera_from_object`. At most about `max_points`, evenly spread.
 std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           const Camera& camera,

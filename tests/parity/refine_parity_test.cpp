@@ -20,7 +20,10 @@ class RefineParity : public test::Parity {
     at_host_ = host().uploadDepth(depth, keep_);
     at_subject_ = subject().uploadDepth(depth, keep_);
     for (int view = 0; view < kViews; ++view) {
-      points_.push_back(pointsOfView(scene_.object, view, 100 + 20 * view));
+      std::vector<SurfacePoint>& points =
+          points_.emplace_back(pointsOfView(scene_.object, view, 100 + 20 * view));
+      const std::vector<SurfacePoint> rim = rimOfView(scene_.object, view, 100);
+      points.insert(points.end(), rim.begin(), rim.end());
     }
   }
   /// The fixture's proof of work, for a path that aligns on the host.
@@ -58,9 +61,12 @@ class RefineParity : public test::Parity {
 RP_PARITY_SUBJECTS(RefineParity);
 
 TEST_P(RefineParity, PosesAreAlignedAlike) {
+  IcpOptions options;
+  options.rim_reach_mm = 5.0;
   std::vector<AlignTask> tasks;
   for (const auto& points : points_) {
-    tasks.push_back({&points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, {}});
+    tasks.push_back(
+        {&points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, options});
   }
   const std::vector<IcpResult> expected = host().align(*at_host_, tasks);
   const std::vector<IcpResult> actual = subject().align(*at_subject_, tasks);

@@ -27,12 +27,16 @@ struct Bench {
         windowAround(image.camera, pose * sphere.center_mm, sphere.radius_mm, 1000);
     return host::check(host::renderSurface(mesh, image.camera, pose, window), window, image, {});
   }
-  CheckResult checkPoints(const Pose& pose) const {
+  CheckResult checkPoints(const Pose& pose, bool with_rim = false) const {
     const SurfaceWindow window =
         windowAround(image.camera, pose * sphere.center_mm, sphere.radius_mm, 1000);
     const Image<SurfaceTexel> surface = host::renderSurface(mesh, image.camera, pose, window);
-    return host::checkPoints(
-        pointsOfSurface(surface, image.camera, window, pose, 400), pose, 900.0, image, {});
+    std::vector<SurfacePoint> points = pointsOfSurface(surface, image.camera, window, pose, 400);
+    if (with_rim) {
+      const std::vector<SurfacePoint> rim = rimOfSurface(surface, image.camera, window, pose, 400);
+      points.insert(points.end(), rim.begin(), rim.end());
+    }
+    return host::checkPoints(points, pose, 900.0, image, {});
   }
   Pose moved(const glm::dvec3& shift_mm) const {
     return {truth.rotation, truth.translation_mm + shift_mm};
@@ -53,6 +57,16 @@ TEST(CheckTest, ThePerfectPoseScoresNearlyOne) {
     EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
   }
   EXPECT_GT(bench.check(bench.truth).outline, 0.95);
+}
+
+/// Their "normals" are tangents: taken for faces they would speak against any pose.
+TEST(CheckTest, PointsOfRimsHaveNoSay) {
+  const Bench bench;
+  const CheckResult without = bench.checkPoints(bench.truth, false);
+  const CheckResult with = bench.checkPoints(bench.truth, true);
+  EXPECT_EQ(with.pixels, without.pixels);
+  EXPECT_EQ(with.explained, without.explained);
+  EXPECT_EQ(with.score, without.score);
 }
 
 TEST(CheckTest, ExplainedAreaIsWhatTheCameraSees) {

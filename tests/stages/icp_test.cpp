@@ -203,6 +203,37 @@ TEST(IcpTest, RimsBeyondTheirReachHaveNoSay) {
   EXPECT_GT(bench.left(bench.shifted({6.0, 0.0, 0.0}), 2.0), 4.0);
 }
 
+/// A rough pose is off in depth too, by more than what tells a plate from the table below it: yet
+/// its first step is one towards the plate's border.
+TEST(IcpTest, RimsFollowTheDataWhereAPoseIsOffInDepth) {
+  const PlateBench bench;
+  const auto after = [&](const glm::dvec3& shift_mm) {
+    const Pose start = bench.shifted(shift_mm);
+    const SurfaceWindow window = windowAround(bench.camera, start.translation_mm, 51.0, 1000);
+    const Image<SurfaceTexel> surface =
+        host::renderSurface(bench.mesh, bench.camera, start, window);
+    std::vector<SurfacePoint> points = pointsOfSurface(surface, bench.camera, window, start, 900);
+    const std::vector<SurfacePoint> rim = rimOfSurface(surface, bench.camera, window, start, 900);
+    points.insert(points.end(), rim.begin(), rim.end());
+    IcpOptions options;
+    options.iterations = 1;
+    options.first_reach_mm = 12.0;
+    options.last_reach_mm = 1.0;
+    options.rim_reach_mm = 6.0;
+    options.slide = 0.001;
+    const Pose moved =
+        host::icp(points, bench.camera, bench.scene, start, {0.0, 0.0, 0.0}, 51.0, options)
+            .camera_from_object;
+    const glm::dvec3 left =
+        glm::transpose(bench.truth.rotation) * (moved.translation_mm - bench.truth.translation_mm);
+    return glm::length(glm::dvec2(left));
+  };
+  for (const double above_mm : {-4.0, 4.0}) {
+    EXPECT_LT(after({3.0, 0.0, above_mm}), 2.1) << "mm left of 3";
+    EXPECT_LT(after({0.0, -3.0, above_mm}), 2.1) << "mm left of 3";
+  }
+}
+
 TEST(IcpTest, WithoutPartnersThePoseIsKept) {
   const Bench bench;
   const Pose start = bench.displaced({0.01, 0.02, 0.0}, {1.0, 0.0, 0.0});

@@ -126,10 +126,69 @@ TEST(SurfacePointsTest, PointsOfAViewLieOnThePart) {
   EXPECT_GT(agreeing, 0.8 * points_seen);
 }
 
+/// The outline of each view, holes included: a step along a rim's tangent leads out of what the
+/// view shows, a step back stays on it.
+TEST(SurfacePointsTest, RimOfAViewIsWhereItEnds) {
+  ReferenceObject object = test::objectOf(test::bracketBoxes(), 20, 64, 31);
+  host::renderReferences(object, {}, {});
+  int seen = 0;
+  int inside = 0;
+  int outside = 0;
+  for (int view = 0; view < 20; ++view) {
+    const glm::dmat3& rotation = object.views[static_cast<std::size_t>(view)].rotation;
+    const glm::ivec2 origin = object.tileOrigin(view);
+    const auto shown = [&](const glm::dvec3& point_mm) {
+      const glm::dvec3 in_view = rotation * (point_mm - object.center_mm) / object.pixel_mm;
+      const glm::ivec2 at(glm::floor(glm::dvec2(in_view) + 0.5 * object.size));
+      return object.atlas.at(origin.x + at.x, origin.y + at.y).a > 0.0f;
+    };
+    const std::vector<SurfacePoint> rim = rimOfView(object, view, 200);
+    EXPECT_GT(rim.size(), 10U) << "view " << view;
+    EXPECT_LT(rim.size(), 120U) << "view " << view;
+    for (const SurfacePoint& point : rim) {
+      ASSERT_TRUE(point.rim);
+      const glm::dvec3 out(point.normal);
+      ASSERT_NEAR(glm::length(out), 1.0, 1e-5);
+      const glm::dvec2 in_image(rotation * out);
+      ASSERT_GT(glm::length(in_image), 0.4) << "steeper than a rim's slope may be";
+      const glm::dvec3 step = 1.2 * object.pixel_mm / glm::length(in_image) * out;
+      ++seen;
+      inside += shown(glm::dvec3(point.position_mm) - step) ? 1 : 0;
+      outside += shown(glm::dvec3(point.position_mm) + step) ? 0 : 1;
+    }
+  }
+  // At corners a straight step may stay on the part, or leave it on the other side.
+  EXPECT_GT(inside, 0.93 * seen);
+  EXPECT_GT(outside, 0.93 * seen);
+}
+
+TEST(SurfacePointsTest, RimOfAViewLiesOnThePlatesBorder) {
+  ReferenceObject object =
+      test::objectOf(std::vector<test::Box>{{{-30.0, -20.0, -1.0}, {30.0, 20.0, 1.0}}}, 30, 64, 31);
+  host::renderReferences(object, {}, {});
+  double off_mm = 0.0;
+  int seen = 0;
+  for (int view = 0; view < 30; ++view) {
+    const glm::dmat3& rotation = object.views[static_cast<std::size_t>(view)].rotation;
+    if (std::abs(rotation[2].z) < 0.6) continue;  // its narrow sides are then a part of the picture
+    for (const SurfacePoint& point : rimOfView(object, view, 300)) {
+      const double right = std::abs(static_cast<double>(point.position_mm.x)) - 30.0;
+      const double below = std::abs(static_cast<double>(point.position_mm.y)) - 20.0;
+      ASSERT_LT(std::abs(std::max(right, below)), 2.0 * object.pixel_mm);
+      off_mm += std::max(right, below);
+      ++seen;
+    }
+  }
+  ASSERT_GT(seen, 200);
+  EXPECT_LT(std::abs(off_mm / seen), 0.3 * object.pixel_mm)
+      << "parts are taken for larger or smaller than they are";
+}
+
 TEST(SurfacePointsTest, AnEmptyViewOrSurfaceHasNoPoints) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 1, 64, 31);
   object.atlas = Image<ReferenceTexel>(64, 64, ReferenceTexel(0.0f));
   EXPECT_TRUE(pointsOfView(object, 0, 100).empty());
+  EXPECT_TRUE(rimOfView(object, 0, 100).empty());
   const Camera camera = test::pinholeCamera(32, 24, 60.0);
   EXPECT_TRUE(pointsOfSurface({}, camera, {}, {}, 100).empty());
   const Image<SurfaceTexel> nothing(32, 24, SurfaceTexel(0.0f));
