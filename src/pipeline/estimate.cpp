@@ -238,9 +238,9 @@ class Estimator {
 PassEffort EstimateOptions::effort(int pass) const {
   // One pose must come from what three starts give, the paper's N_init. Several poses: first a
   // quick look everywhere, then a closer one at what is left.
-  constexpr PassEffort kOne{3, 512, 16, {2, 900, 3, 1e-4}};
-  constexpr PassEffort kQuick{40, 128, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{12, 256, 8, {1, 450, 3, 1e-3}};
+  constexpr PassEffort kOne{3, 256, 16, {2, 900, 3, 1e-4}};
+  constexpr PassEffort kQuick{40, 80, 4, {1, 450, 2, 1e-3}};
+  constexpr PassEffort kClose{12, 160, 8, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? kOne : pass == 0 ? kQuick : kClose;
   if (starts > 0) result.starts = starts;
   if (kept_per_start > 0) result.kept = kept_per_start;

@@ -106,7 +106,7 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{8, 1, 0.20, 2.0, 0.12};
+  constexpr CoarseRound kMany{12, 1, 0.20, 2.0, 0.12};
   constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08};
   constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;

@@ -71,6 +71,7 @@ std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int
   const glm::ivec2 origin = object.tileOrigin(view);
   const glm::dmat3 object_from_view = glm::transpose(reference.rotation);
   const int stride = rimStride(pointStride(reference.area_px, max_points));
+  const int half = stride / 2;  // as in isRim
   const SurfaceWindow tile{0, 0, object.size, object.size, 1};
   const auto range = [&](int u, int v) {
     if (u < 0 || v < 0 || u >= object.size || v >= object.size) return 0.0f;
@@ -80,8 +81,11 @@ std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int
   const auto surface = [&](int u, int v) { return SurfaceTexel(0.0f, 0.0f, 0.0f, range(u, v)); };
   std::vector<SurfacePoint> points;
   for (int v = reference.box.y0; v < reference.box.y1; ++v) {
-    for (int u = reference.box.x0; u < reference.box.x1; ++u) {
-      if (v % stride != stride / 2 && u % stride != stride / 2) continue;
+    // Only every stride-th row is looked at whole.
+    const bool whole = v % stride == half;
+    const int first = reference.box.x0;
+    const int begin = whole ? first : first + (half - first % stride + stride) % stride;
+    for (int u = begin; u < reference.box.x1; u += whole ? 1 : stride) {
       if (range(u, v) == 0.0f || !isRim(surface, tile, u, v, stride)) continue;
       const glm::dvec2 out = outOfSurface(surface, tile, u, v);
       if (out == glm::dvec2(0.0)) continue;
