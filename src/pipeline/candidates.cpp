@@ -124,15 +124,6 @@ double toleranceFor(const ReferenceObject& object, double noise_mm) {
   return std::max(object.finerIfThin(0.02 * object.diameter_mm), 3.0 * noise_mm);
 }
 
-std::vector<SurfacePoint> pointsAndRimOfView(const ReferenceObject& object,
-                                             int view,
-                                             int max_points) {
-  std::vector<SurfacePoint> points = pointsOfView(object, view, max_points);
-  const std::vector<SurfacePoint> rim = rimOfView(object, view, max_points);
-  points.insert(points.end(), rim.begin(), rim.end());
-  return points;
-}
-
 std::vector<ViewPoints> fewPointsOfViews(const ReferenceDatabase& database) {
   constexpr int kPoints = 40;
   constexpr int kViewsPerPiece = 64;

@@ -15,11 +15,6 @@ RenderTask surfaceTask(const ReferenceObject& object,
                        const Camera& camera,
                        double noise_mm);
 
-/// pointsOfView and rimOfView in one.
-std::vector<SurfacePoint> pointsAndRimOfView(const ReferenceObject& object,
-                                             int view,
-                                             int max_points);
-
 /// Area of a view [mm^2].
 double visibleArea(const ReferenceObject& object, int view);
 /// Mean area of the object's views [mm^2].

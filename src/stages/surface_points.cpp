@@ -27,14 +27,13 @@ template <typename Range>
 double slopeAtRim(const Range& range, int u, int v, const glm::dvec2& across) {
   constexpr double kNear = 1.5;  // from the rim, which may be rounded [px]
   constexpr double kFar = 3.5;
-  constexpr double kSteepest = 2.0;
   const glm::ivec2 near = glm::ivec2(glm::floor(glm::dvec2(u, v) - kNear * across + 0.5));
   const glm::ivec2 far = glm::ivec2(glm::floor(glm::dvec2(u, v) - kFar * across + 0.5));
   const double near_px = range(near.x, near.y);
   const double far_px = range(far.x, far.y);
   if (near_px == 0.0 || far_px == 0.0) return 0.0;
   const double slope = (near_px - far_px) / glm::dot(glm::dvec2(near - far), across);
-  return std::abs(slope) < kSteepest ? slope : 0.0;
+  return std::abs(slope) < kSteepestRim ? slope : 0.0;
 }
 
 }  // namespace
@@ -91,14 +90,22 @@ std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int
       if (out == glm::dvec2(0.0)) continue;
       const glm::dvec2 across = glm::normalize(out);
       const glm::dvec3 tangent(across, slopeAtRim(range, u, v, across));
-      const double inside_px = 0.5 / (std::abs(across.x) + std::abs(across.y));
       const glm::dvec3 end =
-          glm::dvec3(u, v, static_cast<double>(range(u, v))) + inside_px * tangent;
+          glm::dvec3(u, v, static_cast<double>(range(u, v))) + outOfRimPixels(across) * tangent;
       points.push_back({inObject(object, object_from_view, end.x, end.y, end.z),
                         glm::vec3(object_from_view * glm::normalize(tangent)),
                         true});
     }
   }
+  return points;
+}
+
+std::vector<SurfacePoint> pointsAndRimOfView(const ReferenceObject& object,
+                                             int view,
+                                             int max_points) {
+  std::vector<SurfacePoint> points = pointsOfView(object, view, max_points);
+  const std::vector<SurfacePoint> rim = rimOfView(object, view, max_points);
+  points.insert(points.end(), rim.begin(), rim.end());
   return points;
 }
 

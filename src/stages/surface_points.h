@@ -28,6 +28,11 @@ std::vector<SurfacePoint> pointsOfView(const ReferenceObject& object, int view, 
 /// along it as those of pointsOfView.
 std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int max_points);
 
+/// pointsOfView and rimOfView in one.
+std::vector<SurfacePoint> pointsAndRimOfView(const ReferenceObject& object,
+                                             int view,
+                                             int max_points);
+
 /// Points of a surface rendered at `camera_from_object`. At most about `max_points`, evenly spread.
 std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           const Camera& camera,

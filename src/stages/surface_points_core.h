@@ -58,6 +58,17 @@ RP_HD glm::dvec2 outOfSurface(const Surface& surface, const SurfaceWindow& windo
   return out;
 }
 
+/// How far a straight rim lies out of the pixels that isRim takes, on average [px]: along rows they
+/// lie inside by 0 to |across.x| and there are |across.y| as many; columns alike. `across` is the
+/// way out, a unit vector.
+RP_HD double outOfRimPixels(const glm::dvec2& across) {
+  return 0.5 / (std::fabs(across.x) + std::fabs(across.y));
+}
+
+/// Where a surface bends away from the viewer by more than this its slope says nothing about where
+/// it ends.
+inline constexpr double kSteepestRim = 2.0;
+
 /// The rim that pixel (x, y) shows: so far out of its centre as the pixels that isRim takes lie
 /// inside of a straight rim on average. `out` as from outOfSurface, not zero.
 RP_HD SurfacePoint rimOfTexel(const SurfaceTexel& texel,
@@ -67,18 +78,13 @@ RP_HD SurfacePoint rimOfTexel(const SurfaceTexel& texel,
                               const Pose& object_from_camera,
                               int x,
                               int y) {
-  // Where a surface bends away from the viewer its slope says nothing about where it ends.
-  constexpr double kSteepest = 2.0;
   const glm::dvec2 across = out / std::sqrt(glm::dot(out, out));
   const glm::dvec3 normal(texel);
   const double rise = -(across.x * normal.x + across.y * normal.y);
-  const double slope = std::fabs(rise) < kSteepest * std::fabs(normal.z) ? rise / normal.z : 0.0;
+  const double slope = std::fabs(rise) < kSteepestRim * std::fabs(normal.z) ? rise / normal.z : 0.0;
   const glm::dvec3 tangent(across, slope);
   const double z = static_cast<double>(texel.w);
-  // Along rows pixels lie inside by 0 to |across.x| and there are |across.y| as many; columns
-  // alike.
-  const double inside_px = 0.5 / (std::fabs(across.x) + std::fabs(across.y));
-  const double inside_mm = inside_px * window.step * camera.pixelSpacingMm(z);
+  const double inside_mm = outOfRimPixels(across) * window.step * camera.pixelSpacingMm(z);
   const glm::dvec3 point =
       camera.unproject(window.x0 + x * window.step, window.y0 + y * window.step, z) +
       inside_mm * tangent;

@@ -130,9 +130,7 @@ TEST_P(RefineBodyTest, VerdictOnPointsIsTheHosts) {
   double explained = 0.0;
   for (int view = 0; view < 8; ++view) {
     scene.show(view);
-    std::vector<SurfacePoint> points = pointsOfView(scene.object, view, 200);
-    const std::vector<SurfacePoint> rim = rimOfView(scene.object, view, 200);
-    points.insert(points.end(), rim.begin(), rim.end());
+    const std::vector<SurfacePoint> points = pointsAndRimOfView(scene.object, view, 200);
     for (const Pose& pose : {scene.truth, scene.rough}) {
       cuda::PointsTask task;
       task.point_count = static_cast<int>(points.size());

@@ -20,10 +20,7 @@ class RefineParity : public test::Parity {
     at_host_ = host().uploadDepth(depth, keep_);
     at_subject_ = subject().uploadDepth(depth, keep_);
     for (int view = 0; view < kViews; ++view) {
-      std::vector<SurfacePoint>& points =
-          points_.emplace_back(pointsOfView(scene_.object, view, 100 + 20 * view));
-      const std::vector<SurfacePoint> rim = rimOfView(scene_.object, view, 100);
-      points.insert(points.end(), rim.begin(), rim.end());
+      points_.push_back(pointsAndRimOfView(scene_.object, view, 100 + 20 * view));
     }
   }
   /// The fixture's proof of work, for a path that aligns on the host.

@@ -164,6 +164,16 @@ struct PlateBench {
     pose.translation_mm += truth.rotation * in_plane_mm;
     return pose;
   }
+  /// Renders the plate and aligns what is seen of it, with its rim.
+  Pose aligned(const Pose& pose, const IcpOptions& options) const {
+    const SurfaceWindow window = windowAround(camera, pose.translation_mm, 51.0, 1000);
+    const Image<SurfaceTexel> surface = host::renderSurface(mesh, camera, pose, window);
+    std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, pose, 900);
+    const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, pose, 900);
+    points.insert(points.end(), rim.begin(), rim.end());
+    return host::icp(points, camera, scene, pose, {0.0, 0.0, 0.0}, 51.0, options)
+        .camera_from_object;
+  }
   /// How far the plate lies from where it is after a few rounds [mm].
   double left(Pose pose, double rim_reach_mm) const {
     IcpOptions options;
@@ -171,13 +181,7 @@ struct PlateBench {
     options.rim_reach_mm = rim_reach_mm;
     options.slide = 0.001;
     for (int round = 0; round < 8; ++round) {
-      const SurfaceWindow window = windowAround(camera, pose.translation_mm, 51.0, 1000);
-      const Image<SurfaceTexel> surface = host::renderSurface(mesh, camera, pose, window);
-      std::vector<SurfacePoint> points = pointsOfSurface(surface, camera, window, pose, 900);
-      const std::vector<SurfacePoint> rim = rimOfSurface(surface, camera, window, pose, 900);
-      points.insert(points.end(), rim.begin(), rim.end());
-      pose =
-          host::icp(points, camera, scene, pose, {0.0, 0.0, 0.0}, 51.0, options).camera_from_object;
+      pose = aligned(pose, options);
     }
     double farthest = 0.0;
     for (const glm::vec3& corner : mesh.vertices) {
@@ -208,22 +212,13 @@ TEST(IcpTest, RimsBeyondTheirReachHaveNoSay) {
 TEST(IcpTest, RimsFollowTheDataWhereAPoseIsOffInDepth) {
   const PlateBench bench;
   const auto after = [&](const glm::dvec3& shift_mm) {
-    const Pose start = bench.shifted(shift_mm);
-    const SurfaceWindow window = windowAround(bench.camera, start.translation_mm, 51.0, 1000);
-    const Image<SurfaceTexel> surface =
-        host::renderSurface(bench.mesh, bench.camera, start, window);
-    std::vector<SurfacePoint> points = pointsOfSurface(surface, bench.camera, window, start, 900);
-    const std::vector<SurfacePoint> rim = rimOfSurface(surface, bench.camera, window, start, 900);
-    points.insert(points.end(), rim.begin(), rim.end());
     IcpOptions options;
     options.iterations = 1;
     options.first_reach_mm = 12.0;
     options.last_reach_mm = 1.0;
     options.rim_reach_mm = 6.0;
     options.slide = 0.001;
-    const Pose moved =
-        host::icp(points, bench.camera, bench.scene, start, {0.0, 0.0, 0.0}, 51.0, options)
-            .camera_from_object;
+    const Pose moved = bench.aligned(bench.shifted(shift_mm), options);
     const glm::dvec3 left =
         glm::transpose(bench.truth.rotation) * (moved.translation_mm - bench.truth.translation_mm);
     return glm::length(glm::dvec2(left));
