@@ -5,7 +5,6 @@
 #include <map>
 #include <utility>
 
-#include "core/parallel.h"
 #include "pipeline/confidence.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/scene_window.h"
@@ -20,9 +19,9 @@ void judgeRoughly(std::vector<Candidate>& candidates,
                   const ReferenceObject& object,
                   const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
+  const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints);
   std::vector<JudgeTask> tasks;
   for (const Candidate& candidate : candidates) {
-    const ViewPoints& points = scene.few_points[static_cast<std::size_t>(candidate.object)];
     const auto view = static_cast<std::size_t>(candidate.view);
     tasks.push_back({&points[view], candidate.pose, visibleArea(object, candidate.view), options});
   }
@@ -122,20 +121,6 @@ RenderTask surfaceTask(const ReferenceObject& object,
 
 double toleranceFor(const ReferenceObject& object, double noise_mm) {
   return std::max(object.finerIfThin(0.02 * object.diameter_mm), 3.0 * noise_mm);
-}
-
-std::vector<ViewPoints> fewPointsOfViews(const ReferenceDatabase& database) {
-  constexpr int kPoints = 40;
-  constexpr int kViewsPerPiece = 64;
-  std::vector<ViewPoints> points;
-  for (const ReferenceObject& object : database.objects) {
-    ViewPoints& own = points.emplace_back(object.views.size());
-    parallelFor(static_cast<int>(own.size()), kViewsPerPiece, [&](int begin, int end) {
-      for (int view = begin; view < end; ++view)
-        own[static_cast<std::size_t>(view)] = pointsAndRimOfView(object, view, kPoints);
-    });
-  }
-  return points;
 }
 
 std::vector<Candidate> bestCandidates(const ReferenceObject& object,

@@ -15,6 +15,9 @@ RenderTask surfaceTask(const ReferenceObject& object,
                        const Camera& camera,
                        double noise_mm);
 
+/// Of a view: enough for a glance at many poses.
+inline constexpr int kFewPoints = 40;
+
 /// Area of a view [mm^2].
 double visibleArea(const ReferenceObject& object, int view);
 /// Mean area of the object's views [mm^2].

@@ -59,7 +59,6 @@ class Estimator {
         stages_(stages),
         result_(result),
         whole_(stages.uploadDepth(depth, foreground)),
-        few_points_(fewPointsOfViews(database)),
         enclosure_(depth, result.background, bin, database, result.noise_mm),
         tried_(database.objects.size()) {}
 
@@ -76,7 +75,7 @@ class Estimator {
     const std::unique_ptr<ResidentDepth> left =
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : *whole_;
-    const RefineScene scene{depth_, resident, result_.noise_mm, few_points_, enclosure_, stages_};
+    const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_};
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
@@ -87,7 +86,8 @@ class Estimator {
       tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
       pass.starts += static_cast<int>(starts.size());
       const Windows windows = cutWindows(object, resident, starts, object_trace);
-      const std::vector<Hypothesis> hypotheses = search(object, windows, object_trace);
+      const std::vector<Hypothesis> hypotheses =
+          search(object, windows, effort.iterations, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
           object, static_cast<int>(i), hypotheses, windows.cameras, scene, effort.kept);
@@ -118,7 +118,7 @@ class Estimator {
     constexpr int kVerified = 2;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
-    const RefineScene scene{depth_, *whole_, result_.noise_mm, few_points_, enclosure_, stages_};
+    const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
     copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -206,10 +206,13 @@ class Estimator {
 
   std::vector<Hypothesis> search(const ReferenceObject& object,
                                  const Windows& windows,
+                                 int iterations,
                                  ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "rough search");
     SearchOptions search_options = options_.search;
     search_options.error.image_width_px = object.size;
+    search_options.simplex.max_iterations =
+        std::min(search_options.simplex.max_iterations, iterations);
     std::vector<const ResidentScene*> scenes;
     for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
     std::vector<Hypothesis> hypotheses =
@@ -227,7 +230,6 @@ class Estimator {
   StageSet& stages_;
   Estimate& result_;
   std::unique_ptr<ResidentDepth> whole_;  ///< with all of the foreground
-  std::vector<ViewPoints> few_points_;
   Enclosure enclosure_;
   int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
@@ -237,10 +239,11 @@ class Estimator {
 
 PassEffort EstimateOptions::effort(int pass) const {
   // One pose must come from what three starts give, the paper's N_init. Several poses: first a
-  // quick look everywhere, then a closer one at what is left.
-  constexpr PassEffort kOne{3, 256, 16, {2, 900, 3, 1e-4}};
-  constexpr PassEffort kQuick{40, 80, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{12, 160, 8, {1, 450, 3, 1e-3}};
+  // quick look everywhere, then a closer one at what is left. There the alignment finds what half
+  // the simplexes' steps leave.
+  constexpr PassEffort kOne{3, 40, 256, 16, {2, 900, 3, 1e-4}};
+  constexpr PassEffort kQuick{40, 20, 80, 4, {1, 450, 2, 1e-3}};
+  constexpr PassEffort kClose{10, 20, 160, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? kOne : pass == 0 ? kQuick : kClose;
   if (starts > 0) result.starts = starts;
   if (kept_per_start > 0) result.kept = kept_per_start;

@@ -111,8 +111,9 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;
   const PointsOf few = [&](std::size_t i) {
-    const ViewPoints& of_object = scene.few_points[static_cast<std::size_t>(candidates[i].object)];
-    return &of_object[static_cast<std::size_t>(candidates[i].view)];
+    const Candidate& candidate = candidates[i];
+    const ViewPoints& views = scene.stages.pointsOfViews(objectOf(candidate, database), kFewPoints);
+    return &views[static_cast<std::size_t>(candidate.view)];
   };
   alignWithViews(candidates, database, scene, few, kMany);
   std::erase_if(candidates, [&](const Candidate& one) {

@@ -10,19 +10,13 @@
 
 namespace rangepose {
 
-using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
-
-/// A few points of each view of each object: enough for a glance at many poses.
-std::vector<ViewPoints> fewPointsOfViews(const ReferenceDatabase& database);
-
 /// What refinement needs to know of a scene.
 struct RefineScene {
   const DepthImage& depth;        ///< as measured: for the check
   const ResidentDepth& resident;  ///< it and the same without background, for the alignment
   double noise_mm;                ///< of the depth [mm]
-  const std::vector<ViewPoints>& few_points;  ///< of fewPointsOfViews
-  const Enclosure& enclosure;                 ///< of the same image and database
-  StageSet& stages;                           ///< of the path that `resident` is from
+  const Enclosure& enclosure;     ///< of the same image and database
+  StageSet& stages;               ///< of the path that `resident` is from
 };
 
 /// A rough pose and what became of it.

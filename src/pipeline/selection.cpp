@@ -21,6 +21,7 @@ constexpr double kFit = 100.0;
 constexpr double kWorthTurning = 0.1;  // confidence
 constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
 constexpr double kFound = 0.5;         // confidence from which on a part hides others
+constexpr double kSure = 0.98;         // confidence from which on nobody looks there again
 
 }  // namespace
 
@@ -193,6 +194,7 @@ std::vector<Candidate> Selection::turnedCopies() {
 
 void Selection::takeOut(Image<std::uint8_t>& mask) const {
   for (const Entry* entry : chosen()) {
+    if (entry->candidate.confidence < kSure) continue;
     for (const std::int32_t at : entry->pixels) mask.data()[at] = 0;
   }
 }

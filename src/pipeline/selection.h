@@ -34,7 +34,8 @@ class Selection {
   /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
   /// aligned and checked; those of a pose have a `window` of their own.
   std::vector<Candidate> turnedCopies();
-  /// Takes what poses explain, with or without rivals, out of the mask of pixels.
+  /// Takes what sure poses explain, with or without rivals, out of the mask of pixels. What unsure
+  /// ones explain stays: the right pose may not have been found yet.
   void takeOut(Image<std::uint8_t>& mask) const;
 
  private:

@@ -129,4 +129,17 @@ std::vector<CheckResult> StageSet::judgeSurfaces(const ResidentDepth& depth,
       });
 }
 
+const ViewPoints& StageSet::pointsOfViews(const ReferenceObject& object, int max_points) {
+  constexpr int kViewsPerPiece = 64;
+  const auto [found, is_new] = points_of_views_.try_emplace({object.serial, max_points});
+  ViewPoints& points = found->second;
+  if (!is_new) return points;
+  points.resize(object.views.size());
+  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
+    for (int view = begin; view < end; ++view)
+      points[static_cast<std::size_t>(view)] = pointsAndRimOfView(object, view, max_points);
+  });
+  return points;
+}
+
 }  // namespace rangepose

@@ -6,8 +6,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stages/check_host.h"
@@ -16,6 +18,7 @@
 #include "stages/scene_channels.h"
 #include "stages/search.h"
 #include "stages/surface.h"
+#include "stages/surface_points.h"
 
 namespace rangepose {
 
@@ -33,6 +36,8 @@ class ResidentScene {
   /// A copy in host memory.
   virtual SceneChannels download() const = 0;
 };
+
+using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
 
 /// A depth image, and what of it is not background, where the path keeps them.
 class ResidentDepth {
@@ -138,6 +143,14 @@ class StageSet {
                                                const std::vector<RenderTask>& tasks);
   virtual std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
                                                  const std::vector<RenderTask>& tasks);
+
+  /// pointsAndRimOfView of all views of an object, made once: they are the same in every image.
+  /// Valid as long as this.
+  const ViewPoints& pointsOfViews(const ReferenceObject& object, int max_points);
+
+ private:
+  /// By ReferenceObject::serial and number of points.
+  std::map<std::pair<std::uint64_t, int>, ViewPoints> points_of_views_;
 };
 
 /// The host path. Keeps a packed copy of the views of each object that it has searched.

@@ -65,10 +65,10 @@ TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
   const double all = left();
   ASSERT_GT(all, 0.0);
   Selection selection(image_, database_, 0.1, 0.5);
-  selection.add({candidateAt(-60.0, 1.0)});
+  selection.add({candidateAt(-60.0, 5.0)});
   selection.takeOut(foreground_);
   EXPECT_NEAR(left(), 0.5 * all, 0.02 * all);
-  selection.add({candidateAt(60.0, 1.0)});
+  selection.add({candidateAt(60.0, 5.0)});
   EXPECT_EQ(selection.choose().size(), 2u);
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), 0.0);
@@ -131,6 +131,15 @@ TEST_F(SelectionTest, OfRivalsTheOneThatExplainsMoreWins) {
     EXPECT_EQ(chosen[0].rank, 2.0);
     EXPECT_NEAR(chosen[0].confidence, probabilityOf(2.0), 0.01);
   }
+}
+
+TEST_F(SelectionTest, WhereAPoseIsLikelyButNotSureASecondLookIsTaken) {
+  Selection selection(image_, database_, 0.1, 0.5);
+  const double before = left();
+  selection.add({candidateAt(-60.0, 2.0)});
+  EXPECT_EQ(selection.choose().size(), 1u);
+  selection.takeOut(foreground_);
+  EXPECT_EQ(left(), before) << "a wrong pose keeps the right one from being found";
 }
 
 TEST_F(SelectionTest, UnsurePosesClaimNothing) {

@@ -24,10 +24,8 @@ void addCoarse(Fixture& fixture, const Path& path) {
   add("BM_CoarseRefinement/" + path.name, [&fixture, path](benchmark::State& state) {
     const std::unique_ptr<ResidentDepth> resident =
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
-    const std::vector<ViewPoints> few = fewPointsOfViews(fixture.database(kViews));
     const Enclosure enclosure = fixture.enclosure(kViews);
-    const RefineScene scene{
-        fixture.demo(), *resident, fixture.noiseMm(), few, enclosure, *path.stages};
+    const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), enclosure, *path.stages};
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
     for (auto _ : state) {
       benchmark::DoNotOptimize(refineCoarsely(
@@ -42,10 +40,8 @@ void addFine(Fixture& fixture, const Path& path) {
     const ReferenceDatabase& database = fixture.database(kViews);
     const std::unique_ptr<ResidentDepth> resident =
         path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
-    const std::vector<ViewPoints> few = fewPointsOfViews(fixture.database(kViews));
     const Enclosure enclosure = fixture.enclosure(kViews);
-    const RefineScene scene{
-        fixture.demo(), *resident, fixture.noiseMm(), few, enclosure, *path.stages};
+    const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), enclosure, *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(
         roughCandidates(fixture, scene), database, scene, EstimateOptions().effort().verified);
     for (auto _ : state) {
