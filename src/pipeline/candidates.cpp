@@ -19,7 +19,9 @@ void judgeRoughly(std::vector<Candidate>& candidates,
                   const ReferenceObject& object,
                   const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
-  const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints);
+  std::vector<int> views;
+  for (const Candidate& candidate : candidates) views.push_back(candidate.view);
+  const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
   std::vector<JudgeTask> tasks;
   for (const Candidate& candidate : candidates) {
     const auto view = static_cast<std::size_t>(candidate.view);

@@ -1,7 +1,6 @@
 #include "pipeline/refine.h"
 
 #include <algorithm>
-#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -14,7 +13,7 @@ namespace {
 
 constexpr int kCandidatesPerPiece = 16;
 
-using Points = std::vector<std::vector<SurfacePoint>>;  ///< of each candidate
+using Points = std::vector<const std::vector<SurfacePoint>*>;  ///< of each candidate
 
 const ReferenceObject& objectOf(const Candidate& candidate, const ReferenceDatabase& database) {
   return database.objects[static_cast<std::size_t>(candidate.object)];
@@ -51,25 +50,29 @@ struct CoarseRound {
   double rim_reach;        ///< share of the diameter
 };
 
+/// Of the candidates' own views.
 Points pointsOfViews(const std::vector<Candidate>& candidates,
                      const ReferenceDatabase& database,
+                     StageSet& stages,
                      int max_points) {
-  Points points(candidates.size());
-  parallelFor(static_cast<int>(points.size()), kCandidatesPerPiece, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      points[i] =
-          pointsAndRimOfView(objectOf(candidates[i], database), candidates[i].view, max_points);
-    }
-  });
+  std::vector<std::vector<int>> views(database.objects.size());
+  for (const Candidate& candidate : candidates)
+    views[static_cast<std::size_t>(candidate.object)].push_back(candidate.view);
+  std::vector<const ViewPoints*> of_objects;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    of_objects.push_back(&stages.pointsOfViews(database.objects[i], max_points, views[i]));
+  Points points;
+  for (const Candidate& candidate : candidates) {
+    const ViewPoints& of_object = *of_objects[static_cast<std::size_t>(candidate.object)];
+    points.push_back(&of_object[static_cast<std::size_t>(candidate.view)]);
+  }
   return points;
 }
-
-using PointsOf = std::function<const std::vector<SurfacePoint>*(std::size_t candidate)>;
 
 void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
-                    const PointsOf& points,
+                    const Points& points,
                     const CoarseRound& round) {
   // More than that of rendered surfaces: where a pose is far off, an end of the data is a surer
   // guide than what happens to lie near its faces.
@@ -84,14 +87,14 @@ void alignWithViews(std::vector<Candidate>& candidates,
     options.rim_reach_mm = round.rim_reach * object.diameter_mm;
     options.rim_weight = kRimWeight;
     alignments.push_back(
-        {points(i), candidates[i].pose, object.center_mm, object.radius_mm, options});
+        {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
   }
   const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
   std::vector<JudgeTask> tasks;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     candidates[i].pose = aligned[i].camera_from_object;
-    tasks.push_back({points(i),
+    tasks.push_back({points[i],
                      candidates[i].pose,
                      visibleArea(object, candidates[i].view),
                      checkOptionsFor(object, scene.noise_mm)});
@@ -110,19 +113,15 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08};
   constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;
-  const PointsOf few = [&](std::size_t i) {
-    const Candidate& candidate = candidates[i];
-    const ViewPoints& views = scene.stages.pointsOfViews(objectOf(candidate, database), kFewPoints);
-    return &views[static_cast<std::size_t>(candidate.view)];
+  const auto pointsOf = [&](int max_points) {
+    return pointsOfViews(candidates, database, scene.stages, max_points);
   };
-  alignWithViews(candidates, database, scene, few, kMany);
+  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), kMany);
   std::erase_if(candidates, [&](const Candidate& one) {
     return !scene.enclosure.holds(one.object, one.pose, 0.0);
   });
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
-  const Points more = pointsOfViews(candidates, database, kPoints);
-  alignWithViews(
-      candidates, database, scene, [&](std::size_t i) { return &more[i]; }, kFew);
+  alignWithViews(candidates, database, scene, pointsOf(kPoints), kFew);
   return bestDistinct(std::move(candidates), database, count);
 }
 

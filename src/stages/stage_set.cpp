@@ -129,15 +129,23 @@ std::vector<CheckResult> StageSet::judgeSurfaces(const ResidentDepth& depth,
       });
 }
 
-const ViewPoints& StageSet::pointsOfViews(const ReferenceObject& object, int max_points) {
-  constexpr int kViewsPerPiece = 64;
-  const auto [found, is_new] = points_of_views_.try_emplace({object.serial, max_points});
-  ViewPoints& points = found->second;
-  if (!is_new) return points;
+const ViewPoints& StageSet::pointsOfViews(const ReferenceObject& object,
+                                          int max_points,
+                                          std::vector<int> views) {
+  constexpr int kViewsPerPiece = 16;
+  ViewPoints& points = points_of_views_[{object.serial, max_points}];
   points.resize(object.views.size());
-  parallelFor(static_cast<int>(points.size()), kViewsPerPiece, [&](int begin, int end) {
-    for (int view = begin; view < end; ++view)
-      points[static_cast<std::size_t>(view)] = pointsAndRimOfView(object, view, max_points);
+  const auto of = [&](int view) -> std::vector<SurfacePoint>& {
+    return points[static_cast<std::size_t>(view)];
+  };
+  std::erase_if(views, [&](int view) { return !of(view).empty(); });
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  parallelFor(static_cast<int>(views.size()), kViewsPerPiece, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const int view = views[static_cast<std::size_t>(i)];
+      of(view) = pointsAndRimOfView(object, view, max_points);
+    }
   });
   return points;
 }

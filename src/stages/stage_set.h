@@ -144,9 +144,11 @@ class StageSet {
   virtual std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
                                                  const std::vector<RenderTask>& tasks);
 
-  /// pointsAndRimOfView of all views of an object, made once: they are the same in every image.
-  /// Valid as long as this.
-  const ViewPoints& pointsOfViews(const ReferenceObject& object, int max_points);
+  /// pointsAndRimOfView of an object's views, of those asked for at least. Made once: they are the
+  /// same in every image. Valid as long as this.
+  const ViewPoints& pointsOfViews(const ReferenceObject& object,
+                                  int max_points,
+                                  std::vector<int> views);
 
  private:
   /// By ReferenceObject::serial and number of points.

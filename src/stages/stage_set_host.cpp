@@ -23,7 +23,7 @@ class HostScene : public ResidentScene {
 class HostStages : public StageSet {
  public:
   std::string name() const override { return "host"; }
-  /// All but the first search of an object, which packs its views.
+  /// All but what is kept of an object: its packed views, points of its views.
   bool concurrent() const override { return true; }
 
   Image<float> resample(const DepthImage& image,
