@@ -20,6 +20,7 @@ void judgeRoughly(std::vector<Candidate>& candidates,
                   const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
   std::vector<int> views;
+  views.reserve(candidates.size());
   for (const Candidate& candidate : candidates) views.push_back(candidate.view);
   const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
   std::vector<JudgeTask> tasks;
