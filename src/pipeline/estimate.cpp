@@ -211,8 +211,7 @@ class Estimator {
     const ScopedTimer timer(result_.times, "rough search");
     SearchOptions search_options = options_.search;
     search_options.error.image_width_px = object.size;
-    search_options.simplex.max_iterations =
-        std::min(search_options.simplex.max_iterations, iterations);
+    search_options.simplex.max_iterations = iterations;
     std::vector<const ResidentScene*> scenes;
     for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
     std::vector<Hypothesis> hypotheses =
@@ -241,10 +240,12 @@ PassEffort EstimateOptions::effort(int pass) const {
   // One pose must come from what three starts give, the paper's N_init. Several poses: first a
   // quick look everywhere, then a closer one at what is left. There the alignment finds what half
   // the simplexes' steps leave.
-  constexpr PassEffort kOne{3, 40, 256, 16, {2, 900, 3, 1e-4}};
+  const int most = search.simplex.max_iterations;
+  const PassEffort one{3, most, 256, 16, {2, 900, 3, 1e-4}};
   constexpr PassEffort kQuick{40, 20, 80, 4, {1, 450, 2, 1e-3}};
   constexpr PassEffort kClose{10, 20, 160, 12, {1, 450, 3, 1e-3}};
-  PassEffort result = max_poses == 1 ? kOne : pass == 0 ? kQuick : kClose;
+  PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
+  result.iterations = std::min(result.iterations, most);
   if (starts > 0) result.starts = starts;
   if (kept_per_start > 0) result.kept = kept_per_start;
   if (verified > 0) result.verified = verified;

@@ -20,7 +20,7 @@ namespace rangepose {
 /// How much a pass over the scene does.
 struct PassEffort {
   int starts;      ///< N_init, paper Sect. 6.1
-  int iterations;  ///< of a simplex, at most; SearchOptions may say less
+  int iterations;  ///< of a simplex, at most; never more than SearchOptions say
   int kept;        ///< hypotheses of a start that are aligned with their view's own points
   int verified;    ///< of these, how many are rendered, aligned again and checked
   FineEffort fine;
