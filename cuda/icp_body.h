@@ -4,8 +4,8 @@
 #pragma once
 
 #include "cuda/block.h"
-#include "stages/icp_core.h"
 #include "stages/icp_host.h"
+#include "stages/icp_points_core.h"
 
 namespace rangepose::cuda {
 
@@ -29,12 +29,16 @@ struct PointSums {
 /// Shared by the threads of a block; the leader changes it.
 struct IcpShared {
   IcpFrame frame;
+  IcpView view;
   IcpResult result;
   bool done;
 };
 
 /// The leader's end of an iteration.
-RP_BODY void endIteration(const IcpTask& task, const PointSums& sums, IcpShared& shared) {
+RP_BODY void endIteration(const IcpTask& task,
+                          const PointSums& sums,
+                          const Camera& camera,
+                          IcpShared& shared) {
   IcpResult& result = shared.result;
   IcpFrame& frame = shared.frame;
   ++result.iterations;
@@ -46,20 +50,23 @@ RP_BODY void endIteration(const IcpTask& task, const PointSums& sums, IcpShared&
   frame.pose = result.camera_from_object;
   frame.center_mm = frame.pose * task.center_mm;
   frame.reach_mm *= task.shrink;
+  shared.view = icpView(frame, task.options, camera);
   shared.done = result.iterations >= task.options.iterations;
 }
 
-/// `points` are those of all tasks.
+/// `points` are those of all tasks. `read` as in icp_points_core.h.
 template <typename Block, typename Read>
 RP_BODY void alignPose(Block& block,
                        IcpShared& shared,
                        const IcpTask& task,
-                       const DepthReader<Read>& scene,
+                       const Camera& camera,
+                       const Read& read,
                        const SurfacePoint* points,
                        IcpResult& answer) {
   block.leader([&] {
     shared.result = {task.start, 0.0, 0.0, 0};
     shared.frame = firstFrame(task.start, task.center_mm, task.radius_mm, task.options);
+    shared.view = icpView(shared.frame, task.options, camera);
     shared.done = false;
   });
   block.barrier();
@@ -69,14 +76,14 @@ RP_BODY void alignPose(Block& block,
       PointSums own{};
       for (int i = thread; i < task.point_count; i += Block::kThreads) {
         const SurfacePoint& point = points[task.first_point + i];
-        if (addPoint(own.icp, shared.frame, scene, point)) {
-          own.pairs += 1.0;
-        }
+        const bool found =
+            addPoints(own.icp, shared.view, read, onePoint(point, task.options), point.rim);
+        if (found) own.pairs += 1.0;
       }
       sums[thread] = own;
     });
-    block.template sum<double>(sums,
-                               [&](const PointSums& all) { endIteration(task, all, shared); });
+    block.template sum<double>(
+        sums, [&](const PointSums& all) { endIteration(task, all, camera, shared); });
   }
   block.leader([&] { answer = shared.result; });
 }

@@ -16,6 +16,9 @@ struct DepthAt {
   const float* depth_mm;
   int width;
   __device__ float operator()(int u, int v) const { return __ldg(depth_mm + v * width + u); }
+  __device__ float operator()(bool where, int u, int v) const {
+    return where ? (*this)(u, v) : 0.0f;
+  }
 };
 
 /// Memory for a type whose constructor must not run for each thread.
@@ -33,9 +36,9 @@ __global__ __launch_bounds__(kThreads,
                                                  IcpResult* __restrict__ results) {
   __shared__ Storage<IcpShared> shared;
   const DepthAt read{scene.depth_mm, scene.camera.width};
-  const DepthReader<DepthAt> reader{scene.camera, scene.camera.width, scene.camera.height, read};
   DeviceBlock<kThreads> block;
-  alignPose(block, shared.get(), tasks[blockIdx.x], reader, points, results[blockIdx.x]);
+  alignPose(
+      block, shared.get(), tasks[blockIdx.x], scene.camera, read, points, results[blockIdx.x]);
 }
 
 __global__ __launch_bounds__(kFewThreads,

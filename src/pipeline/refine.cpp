@@ -48,6 +48,7 @@ struct CoarseRound {
   double first_reach;      ///< share of the diameter
   double last_tolerances;  ///< reach of the last iteration, in tolerances
   double rim_reach;        ///< share of the diameter
+  int rim_steps;
 };
 
 /// Of the candidates' own views.
@@ -86,6 +87,7 @@ void alignWithViews(std::vector<Candidate>& candidates,
     options.search_steps = round.search_steps;
     options.rim_reach_mm = round.rim_reach * object.diameter_mm;
     options.rim_weight = kRimWeight;
+    options.rim_steps = round.rim_steps;
     alignments.push_back(
         {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
   }
@@ -109,8 +111,8 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{12, 1, 0.20, 2.0, 0.12};
-  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08};
+  constexpr CoarseRound kMany{12, 1, 0.20, 2.0, 0.12, 6};
+  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16};
   constexpr int kPoints = 220;
   constexpr int kFewPerKept = 4;
   const auto pointsOf = [&](int max_points) {

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+
+#include "stages/icp_points_core.h"
 
 namespace rangepose {
 
@@ -12,6 +15,7 @@ void IcpOptions::check() const {
   RP_CHECK(search_steps >= 0, "icp search_steps must not be negative");
   RP_CHECK(slide >= 0.0, "icp slide must not be negative");
   RP_CHECK(rim_reach_mm >= 0.0, "icp rim reach must not be negative");
+  RP_CHECK(rim_steps >= 1, "icp rim steps must be at least 1");
   RP_CHECK(rim_weight >= 0.0, "icp rim weight must not be negative");
 }
 
@@ -21,6 +25,96 @@ double icpShrink(const IcpOptions& options) {
 }
 
 namespace host {
+namespace {
+
+constexpr int kLanes = 8;
+
+/// Points of one kind, eight at a time, as plain numbers: what alignment a vector has depends on
+/// the processor that code is compiled for.
+struct Eight {
+  int wanted[kLanes];        ///< all bits or none
+  float numbers[6][kLanes];  ///< x, y, z of the position [mm] and of the normal
+};
+
+/// Likewise; the last ones are filled up with copies that are not wanted.
+struct Points {
+  std::vector<Eight> faces;
+  std::vector<Eight> rims;
+};
+
+void append(std::vector<Eight>& blocks, int count, const SurfacePoint& point) {
+  const int lane = count % kLanes;
+  if (lane == 0) blocks.emplace_back();
+  Eight& block = blocks.back();
+  for (int i = lane; i < kLanes; ++i) {
+    block.wanted[i] = i == lane ? -1 : 0;
+    for (int k = 0; k < 3; ++k) {
+      block.numbers[k][i] = point.position_mm[k];
+      block.numbers[3 + k][i] = point.normal[k];
+    }
+  }
+}
+
+Points inEights(const std::vector<SurfacePoint>& points, const IcpOptions& options) {
+  Points result;
+  result.faces.reserve(points.size() / kLanes + 1);
+  int faces = 0;
+  int rims = 0;
+  for (const SurfacePoint& point : points) {
+    if (!isAligned(point, options)) continue;
+    append(point.rim ? result.rims : result.faces, point.rim ? rims++ : faces++, point);
+  }
+  return result;
+}
+
+RP_ALWAYS_INLINE IcpPoints<Float8> loaded(const Eight& block) {
+  const auto& n = block.numbers;
+  Int8 wanted;
+  std::memcpy(&wanted, block.wanted, sizeof wanted);
+  return {wanted, {load8(n[0]), load8(n[1]), load8(n[2])}, {load8(n[3]), load8(n[4]), load8(n[5])}};
+}
+
+struct DepthPixels {
+  const float* depth_mm;
+  int width;
+
+  RP_LANES Float8 operator()(const Int8& where, const Int8& u, const Int8& v) const {
+    const Int8 index = pick(where, v * width + u, Int8{});
+    Float8 depth;
+    for (int i = 0; i < 8; ++i) depth[i] = depth_mm[index[i]];
+    return pick(where, depth, Float8{});
+  }
+};
+
+/// Sum in a fixed order, as sum8 of floats.
+RP_ALWAYS_INLINE double sumOf(const Double8& v) {
+  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/// The sums of all points, and how many have a partner.
+struct PointSums {
+  IcpSums sums;
+  int pairs;
+};
+
+RP_SIMD_CLONES void addAll(const Points& points,
+                           const IcpView& view,
+                           const DepthPixels& depth,
+                           PointSums& result) {
+  IcpSumsOf<Double8> sums{};
+  Int8 pairs{};
+  for (const Eight& block : points.faces)
+    pairs -= addPoints(sums, view, depth, loaded(block), false);
+  for (const Eight& block : points.rims) pairs -= addPoints(sums, view, depth, loaded(block), true);
+  for (int i = 0; i < 21; ++i) result.sums.hessian[i] = sumOf(sums.hessian[i]);
+  for (int i = 0; i < 6; ++i) result.sums.gradient[i] = sumOf(sums.gradient[i]);
+  result.sums.weight = sumOf(sums.weight);
+  result.sums.squared = sumOf(sums.squared);
+  result.pairs = 0;
+  for (int i = 0; i < kLanes; ++i) result.pairs += pairs[i];
+}
+
+}  // namespace
 
 IcpResult icp(const std::vector<SurfacePoint>& points,
               const Camera& camera,
@@ -30,17 +124,17 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
               double radius_mm,
               const IcpOptions& options) {
   options.check();
-  const auto read = [&](int u, int v) { return scene_mm.at(u, v); };
-  const DepthReader<decltype(read)> scene{camera, scene_mm.width(), scene_mm.height(), read};
+  RP_CHECK(camera.width == scene_mm.width() && camera.height == scene_mm.height(),
+           "depth image and camera differ in size");
+  const DepthPixels depth{scene_mm.data(), scene_mm.width()};
+  const Points eights = inEights(points, options);
   IcpResult result{start, 0.0, 0.0, 0};
   const double shrink = icpShrink(options);
   IcpFrame frame = firstFrame(start, center_mm, radius_mm, options);
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
-    IcpSums sums{};
-    int pairs = 0;
-    for (const SurfacePoint& point : points) {
-      if (addPoint(sums, frame, scene, point)) ++pairs;
-    }
+    PointSums all;
+    addAll(eights, icpView(frame, options, camera), depth, all);
+    const auto& [sums, pairs] = all;
     result.iterations = iteration + 1;
     result.paired =
         points.empty() ? 0.0 : static_cast<double>(pairs) / static_cast<double>(points.size());

@@ -11,13 +11,19 @@ template <int kThreads>
 IcpResult alignedByBlock(const test::RefineScene& scene,
                          const std::vector<SurfacePoint>& points,
                          const IcpOptions& options) {
-  const auto read = [&](int u, int v) { return scene.depth.depth_mm.at(u, v); };
-  const Camera& camera = scene.depth.camera;
-  const DepthReader<decltype(read)> reader{camera, camera.width, camera.height, read};
+  const auto read = [&](bool where, int u, int v) {
+    return where ? scene.depth.depth_mm.at(u, v) : 0.0f;
+  };
   cuda::IcpShared shared{};
   cuda::HostBlock<kThreads> block;
   IcpResult answer;
-  cuda::alignPose(block, shared, scene.icpTask(points, options), reader, points.data(), answer);
+  cuda::alignPose(block,
+                  shared,
+                  scene.icpTask(points, options),
+                  scene.depth.camera,
+                  read,
+                  points.data(),
+                  answer);
   return answer;
 }
 

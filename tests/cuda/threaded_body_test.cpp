@@ -88,17 +88,17 @@ class ThreadedRefineTest : public testing::Test {
 };
 
 TEST_F(ThreadedRefineTest, TheAlignmentOfAPose) {
-  const auto read_depth = [&](int u, int v) { return read(u, v); };
+  const auto read_depth = [&](bool where, int u, int v) { return where ? read(u, v) : 0.0f; };
   const Camera& camera = scene_.depth.camera;
-  const DepthReader<decltype(read_depth)> reader{camera, camera.width, camera.height, read_depth};
   const cuda::IcpTask task = scene_.icpTask(points_, {});
   cuda::IcpShared shared{};
   IcpResult expected;
   IcpResult actual;
   cuda::HostBlock<kThreads> host;
-  cuda::alignPose(host, shared, task, reader, points_.data(), expected);
-  runThreaded<kThreads>(
-      [&](auto& block) { cuda::alignPose(block, shared, task, reader, points_.data(), actual); });
+  cuda::alignPose(host, shared, task, camera, read_depth, points_.data(), expected);
+  runThreaded<kThreads>([&](auto& block) {
+    cuda::alignPose(block, shared, task, camera, read_depth, points_.data(), actual);
+  });
   EXPECT_EQ(actual.camera_from_object.rotation, expected.camera_from_object.rotation);
   EXPECT_EQ(actual.camera_from_object.translation_mm, expected.camera_from_object.translation_mm);
   EXPECT_EQ(actual.rms_mm, expected.rms_mm);

@@ -43,12 +43,12 @@ std::vector<Pair> randomPairs(Random& random, int count) {
 IcpSums sumsOf(const std::vector<Pair>& pairs, double slide) {
   IcpSums sums{};
   for (const Pair& p : pairs) {
-    addPair(sums,
-            {p.model.x, p.model.y, p.model.z},
-            {p.normal.x, p.normal.y, p.normal.z},
-            {p.scene.x, p.scene.y, p.scene.z},
-            p.weight,
-            slide);
+    addPair<double>(sums,
+                    {p.model.x, p.model.y, p.model.z},
+                    {p.normal.x, p.normal.y, p.normal.z},
+                    {p.scene.x, p.scene.y, p.scene.z},
+                    p.weight,
+                    slide);
   }
   return sums;
 }
@@ -120,7 +120,7 @@ TEST(IcpCoreTest, WeightAndSquaresAreThoseOfThePlanes) {
   for (const double slide : {0.0, 0.5}) {
     const IcpSums sums = sumsOf(pairs, slide);
     EXPECT_NEAR(sums.weight, weight, 1e-12);
-    EXPECT_NEAR(sums.squared_mm, cost(pairs, {}, 0.0), 1e-12);
+    EXPECT_NEAR(sums.squared, cost(pairs, {}, 0.0), 1e-12);
   }
 }
 

@@ -1,0 +1,361 @@
+// What a point adds to a step of projective ICP: its partner in the depth image, or where the data
+// ends for a point of a rim (paper Sect. 7). For one point or eight at a time (lanes.h). Shared by
+// host and CUDA.
+//
+// Reads a depth image as `read(where, u, v)`: the depth [mm] of pixels inside of it, 0 where
+// nothing was measured and where `where` does not hold.
+#pragma once
+
+#include "core/camera.h"
+#include "stages/icp_core.h"
+#include "stages/lanes.h"
+#include "stages/surface_points.h"
+
+namespace rangepose {
+
+/// What all points of an iteration share, in the numbers that they use.
+struct IcpView {
+  float turn[3][3];  ///< rows of the rotation of camera_from_object
+  float shift_mm[3];
+  float center_mm[3];  ///< of the object's sphere, in the camera frame
+  float radius_mm;     ///< of that sphere
+  float reach_mm;      ///< pairs farther apart are left out
+  int search_steps;
+  double slide;        ///< share of the point-to-point term
+  float rim_reach_mm;  ///< see IcpOptions
+  float rim_steps;
+  float rim_weight;
+  float rim_gap_mm;  ///< data so far behind the rim's surface belongs to something else
+  // The camera.
+  bool orthographic;
+  float fx, fy;  ///< [px] per 1 mm aside at a depth of 1 mm, or at any depth where orthographic
+  float cx, cy;  ///< principal point [px]
+  float mm_per_px_x, mm_per_px_y;  ///< 1 / fx, 1 / fy
+  int width;                       ///< [px]
+  int height;                      ///< [px]
+};
+
+RP_HD IcpView icpView(const IcpFrame& frame, const IcpOptions& options, const Camera& camera) {
+  IcpView view{};
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) view.turn[i][j] = static_cast<float>(frame.pose.rotation[j][i]);
+    view.shift_mm[i] = static_cast<float>(frame.pose.translation_mm[i]);
+    view.center_mm[i] = static_cast<float>(frame.center_mm[i]);
+  }
+  view.radius_mm = static_cast<float>(frame.radius_mm);
+  view.reach_mm = static_cast<float>(frame.reach_mm);
+  view.search_steps = options.search_steps;
+  view.slide = options.slide;
+  view.rim_reach_mm = static_cast<float>(options.rim_reach_mm);
+  view.rim_steps = static_cast<float>(options.rim_steps);
+  view.rim_weight = static_cast<float>(options.rim_weight);
+  view.rim_gap_mm = static_cast<float>(options.last_reach_mm);
+  view.orthographic = camera.orthographic;
+  const double fx = camera.orthographic ? 1.0 / camera.pixel_size_mm : camera.fx;
+  const double fy = camera.orthographic ? 1.0 / camera.pixel_size_mm : camera.fy;
+  view.fx = static_cast<float>(fx);
+  view.fy = static_cast<float>(fy);
+  view.cx = static_cast<float>(camera.cx);
+  view.cy = static_cast<float>(camera.cy);
+  view.mm_per_px_x = static_cast<float>(1.0 / fx);
+  view.mm_per_px_y = static_cast<float>(1.0 / fy);
+  view.width = camera.width;
+  view.height = camera.height;
+  return view;
+}
+
+namespace icp_detail {
+
+template <typename V>
+RP_LANES V all(float value) {
+  return V{} + value;
+}
+
+template <typename V>
+RP_LANES Lane3<V> turned(const IcpView& view, const Lane3<V>& a) {
+  const auto& m = view.turn;
+  return {m[0][0] * a.x + m[0][1] * a.y + m[0][2] * a.z,
+          m[1][0] * a.x + m[1][1] * a.y + m[1][2] * a.z,
+          m[2][0] * a.x + m[2][1] * a.y + m[2][2] * a.z};
+}
+
+template <typename V>
+RP_LANES typename LanesOf<V>::Mask inFront(const IcpView& view, const Lane3<V>& point_mm) {
+  using Mask = typename LanesOf<V>::Mask;
+  return view.orthographic ? Mask{} == Mask{} : point_mm.z > 1.0f;
+}
+
+/// What fx's millimetre is multiplied with to be one at this depth.
+template <typename V>
+RP_LANES V spread(const IcpView& view, const V& depth_mm) {
+  return view.orthographic ? all<V>(1.0f) : depth_mm;
+}
+
+template <typename V>
+struct PixelOf {
+  V u;
+  V v;
+};
+
+template <typename V>
+RP_LANES PixelOf<V> projected(const IcpView& view, const Lane3<V>& point_mm) {
+  const V nearness = 1.0f / spread(view, point_mm.z);
+  return {point_mm.x * nearness * view.fx + view.cx, point_mm.y * nearness * view.fy + view.cy};
+}
+
+/// Relative to the centre of the object's sphere, in its radii.
+template <typename V>
+RP_LANES Lane3<typename LanesOf<V>::Double> inRadii(const IcpView& view, const Lane3<V>& a) {
+  return {asDouble((a.x - view.center_mm[0]) / view.radius_mm),
+          asDouble((a.y - view.center_mm[1]) / view.radius_mm),
+          asDouble((a.z - view.center_mm[2]) / view.radius_mm)};
+}
+
+}  // namespace icp_detail
+
+template <typename V>
+struct IcpPartner {
+  V squared_mm2;      ///< of the distance; that of the reach where there is none
+  Lane3<V> point_mm;  ///< in the camera frame; the point itself where there is none
+};
+
+/// Takes the point measured at pixel (x, y) if it is nearer. 0 is no depth.
+template <typename V>
+RP_LANES void considerPixel(const IcpView& view,
+                            const Lane3<V>& point_mm,
+                            const V& depth_mm,
+                            const typename LanesOf<V>::Int& x,
+                            const typename LanesOf<V>::Int& y,
+                            IcpPartner<V>& nearest) {
+  const V k = icp_detail::spread(view, depth_mm);
+  const Lane3<V> candidate{(asFloat(x) - view.cx) * view.mm_per_px_x * k,
+                           (asFloat(y) - view.cy) * view.mm_per_px_y * k,
+                           depth_mm};
+  const Lane3<V> gap = candidate - point_mm;
+  const V squared = dot(gap, gap);
+  const typename LanesOf<V>::Mask nearer = depth_mm != 0.0f && squared < nearest.squared_mm2;
+  nearest.squared_mm2 = pick(nearer, squared, nearest.squared_mm2);
+  nearest.point_mm.x = pick(nearer, candidate.x, nearest.point_mm.x);
+  nearest.point_mm.y = pick(nearer, candidate.y, nearest.point_mm.y);
+  nearest.point_mm.z = pick(nearer, candidate.z, nearest.point_mm.z);
+}
+
+/// The nearest measured point to `point_mm` on a grid of 2 * search_steps + 1 pixels a side, whose
+/// spacing follows from the reach; none if the point is hidden or has no partner within the reach,
+/// nor where `wanted` does not hold.
+template <typename V, typename Read>
+RP_LANES IcpPartner<V> icpPartner(const IcpView& view,
+                                  const Read& read,
+                                  const typename LanesOf<V>::Mask& wanted,
+                                  const Lane3<V>& point_mm) {
+  using namespace icp_detail;
+  using Int = typename LanesOf<V>::Int;
+  using Mask = typename LanesOf<V>::Mask;
+  IcpPartner<V> nearest{all<V>(view.reach_mm * view.reach_mm), point_mm};
+  const Mask front = wanted && inFront(view, point_mm);
+  const Lane3<V> safe{point_mm.x, point_mm.y, pick(front, point_mm.z, all<V>(1.0f))};
+  const PixelOf<V> pixel = projected(view, safe);
+  const V u_real = pixel.u + 0.5f;
+  const V v_real = pixel.v + 0.5f;
+  // Not "outside", so that a NaN counts as outside too.
+  const Mask inside = front && u_real >= 0.0f && v_real >= 0.0f && u_real < asFloat(view.width) &&
+                      v_real < asFloat(view.height);
+  const Int u = truncated(pick(inside, u_real, V{}));
+  const Int v = truncated(pick(inside, v_real, V{}));
+  const V here = read(inside, u, v);
+  const Mask seen = inside && !(here != 0.0f && here < point_mm.z - view.reach_mm);
+  if (!anyOf(seen)) return nearest;
+  const V pixel_mm = spread(view, safe.z) * view.mm_per_px_x;
+  considerPixel(view, point_mm, pick(seen, here, V{}), u, v, nearest);
+  if (view.search_steps == 0) return nearest;
+  const Int share = truncated(view.reach_mm / pixel_mm / asFloat(view.search_steps));
+  const Int spacing = pick(share < 1, Int{} + 1, share);
+  // The point lies at most half a pixel from its own: no other comes nearer than this, but for the
+  // slant of the rays.
+  const V others_mm = (asFloat(spacing) - 0.5f) * pixel_mm;
+  const Mask open = seen && nearest.squared_mm2 > others_mm * others_mm;
+  if (!anyOf(open)) return nearest;
+  for (int dv = -view.search_steps; dv <= view.search_steps; ++dv) {
+    const Int y = v + dv * spacing;
+    const Mask in_row = open && y >= 0 && y < view.height;
+    for (int du = -view.search_steps; du <= view.search_steps; ++du) {
+      if (du == 0 && dv == 0) continue;
+      const Int x = u + du * spacing;
+      const V depth = read(in_row && x >= 0 && x < view.width, x, y);
+      considerPixel(view, point_mm, depth, x, y, nearest);
+    }
+  }
+  return nearest;
+}
+
+template <typename V>
+struct RimPartner {
+  typename LanesOf<V>::Mask found;
+  V beyond_mm;  ///< as far the data goes on beyond the rim; negative where it ends before
+};
+
+/// Where the data ends nearest to a rim on the line `out` (unit, the tangent) across it. The data
+/// is followed from inside to outside, in the slope of `out`, from where it is first
+/// within the view's reach of the line: a pose that is off in depth or slope meets the same end.
+/// What lies behind it or was not measured, twice in a row, ends it. Nearer data hides where it
+/// ends. `across` is the length of `out` in the image.
+template <typename V, typename Read>
+RP_LANES RimPartner<V> rimPartner(const IcpView& view,
+                                  const Read& read,
+                                  const typename LanesOf<V>::Mask& wanted,
+                                  const Lane3<V>& point_mm,
+                                  const Lane3<V>& out,
+                                  const V& across) {
+  using namespace icp_detail;
+  using Int = typename LanesOf<V>::Int;
+  using Mask = typename LanesOf<V>::Mask;
+  constexpr int kEnded = 2;
+  RimPartner<V> nearest{Mask{}, all<V>(view.rim_reach_mm)};
+  const Mask usable = wanted && inFront(view, point_mm) && across > 0.1f;
+  const Lane3<V> point{point_mm.x, point_mm.y, pick(usable, point_mm.z, all<V>(1.0f))};
+  // A pixel or more a step. Over so short a way the line's image is taken as evenly spaced.
+  const V pixel_mm = spread(view, point.z) * view.mm_per_px_x;
+  const V share_mm = all<V>(view.rim_reach_mm / view.rim_steps);
+  const V step_mm = pick(pixel_mm < share_mm, share_mm, pixel_mm);
+  const V scale = step_mm / pick(usable, across, all<V>(1.0f));
+  const Lane3<V> next{point.x + out.x * scale, point.y + out.y * scale, point.z + out.z * scale};
+  const PixelOf<V> pixel = projected(view, point);
+  const PixelOf<V> pixel_next = projected(view, next);
+  const V du = pixel_next.u - pixel.u;
+  const V dv = pixel_next.v - pixel.v;
+  const V reach_steps = view.rim_reach_mm / step_mm;
+  const V u_margin = (reach_steps + 3.0f) * magnitude(du) + 0.5f;
+  const V v_margin = (reach_steps + 3.0f) * magnitude(dv) + 0.5f;
+  // Not "outside", so that a NaN counts as outside too.
+  Mask running = usable && pixel.u > u_margin && pixel.u < asFloat(view.width - 1) - u_margin &&
+                 pixel.v > v_margin && pixel.v < asFloat(view.height - 1) - v_margin;
+  // At least the reach, in whole steps.
+  const Int steps = truncated(pick(running, reach_steps, V{})) + 2;
+  const V first = -asFloat(steps);
+  const V u0 = pixel.u + 0.5f + first * du;
+  const V v0 = pixel.v + 0.5f + first * dv;
+  const V line0 = point.z + first * (out.z * scale);
+  const V line_step = out.z * scale;
+  V shift_mm{};  // of the data from the line
+  Mask followed{};
+  V last_on{};
+  Int off = Int{} + kEnded;  // nothing has begun that could end
+  V nearest_mm = nearest.beyond_mm;
+  for (int k = 0; anyOf(running); ++k) {
+    const V i = first + asFloat(k);
+    const V seen = read(running, truncated(u0 + asFloat(k) * du), truncated(v0 + asFloat(k) * dv));
+    const V behind_line = seen - (line0 + asFloat(k) * line_step);
+    const Mask known = seen != 0.0f;
+    const Mask begins = both(known, both(!followed, magnitude(behind_line) < view.reach_mm));
+    followed = either(followed, begins);
+    shift_mm = pick(begins, behind_line, shift_mm);
+    const V behind = behind_line - shift_mm;
+    const Mask before = both(known, behind < -view.rim_gap_mm);
+    const Mask on = both(known, magnitude(behind) <= view.rim_gap_mm);
+    last_on = pick(on, i, last_on);
+    shift_mm = pick(on, behind_line, shift_mm);
+    off = pick(on, Int{}, pick(before, Int{} + kEnded, off + 1));
+    const V beyond_mm = (last_on + 0.5f) * step_mm;
+    const Mask ends =
+        both(both(running, off == kEnded), both(!before, magnitude(beyond_mm) < nearest_mm));
+    nearest.found = either(nearest.found, ends);
+    nearest.beyond_mm = pick(ends, beyond_mm, nearest.beyond_mm);
+    nearest_mm = magnitude(nearest.beyond_mm);
+    // Another end would lie farther out than here.
+    const Mask farther = both(nearest.found, i * step_mm > nearest_mm);
+    running = both(running, both(i <= asFloat(steps), !farther));
+  }
+  return nearest;
+}
+
+/// Adds a point of a rim with its partner, both in the camera frame, and says whether it has one.
+/// Its row says how far the rim moves across itself in the image, which motion along the line of
+/// sight does not change. Without weight in the sums that tell how well faces fit.
+template <typename V, typename Read>
+RP_LANES typename LanesOf<V>::Mask addRim(IcpSumsOf<typename LanesOf<V>::Double>& sums,
+                                          const IcpView& view,
+                                          const Read& read,
+                                          const typename LanesOf<V>::Mask& wanted,
+                                          const Lane3<V>& point_mm,
+                                          const Lane3<V>& out) {
+  using namespace icp_detail;
+  const V across = squareRoot(out.x * out.x + out.y * out.y);
+  const RimPartner<V> partner = rimPartner(view, read, wanted, point_mm, out, across);
+  if (!anyOf(partner.found)) return partner.found;
+  const V length = pick(partner.found, across, all<V>(1.0f));
+  Lane3<V> n{out.x / length, out.y / length, V{}};
+  if (!view.orthographic) {
+    const V depth_mm = pick(partner.found, point_mm.z, all<V>(1.0f));
+    n.z = -(n.x * point_mm.x + n.y * point_mm.y) / depth_mm;
+  }
+  const V residual = partner.beyond_mm * dot(n, out) / (length * view.radius_mm);
+  const V ratio = partner.beyond_mm / view.rim_reach_mm;
+  const V rest = 1.0f - ratio * ratio;
+  using Double = typename LanesOf<V>::Double;
+  const Lane3<Double> m = inRadii(view, point_mm);
+  const Lane3<Double> direction{asDouble(n.x), asDouble(n.y), asDouble(n.z)};
+  const Lane3<Double> turn = cross(m, direction);
+  addRow<Double>(sums,
+                 {turn.x, turn.y, turn.z, direction.x, direction.y, direction.z},
+                 asDouble(residual),
+                 asDouble(pick(partner.found, view.rim_weight * (rest * rest), V{})));
+  return partner.found;
+}
+
+/// Adds a point of a face with its partner, likewise. The weight is Tukey's over the reach.
+template <typename V, typename Read>
+RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<typename LanesOf<V>::Double>& sums,
+                                           const IcpView& view,
+                                           const Read& read,
+                                           const typename LanesOf<V>::Mask& wanted,
+                                           const Lane3<V>& point_mm,
+                                           const Lane3<V>& normal) {
+  using namespace icp_detail;
+  const IcpPartner<V> partner = icpPartner(view, read, wanted, point_mm);
+  const float squared_reach = view.reach_mm * view.reach_mm;
+  const V rest = 1.0f - partner.squared_mm2 / squared_reach;
+  addPair(sums,
+          inRadii(view, point_mm),
+          {asDouble(normal.x), asDouble(normal.y), asDouble(normal.z)},
+          inRadii(view, partner.point_mm),
+          asDouble(rest * rest),
+          view.slide);
+  return partner.squared_mm2 < squared_reach;
+}
+
+/// Points of the object, in its frame.
+template <typename V>
+struct IcpPoints {
+  typename LanesOf<V>::Mask wanted;
+  Lane3<V> position_mm;
+  Lane3<V> normal;  ///< see SurfacePoint
+};
+
+/// Adds points with their partners, and says which have one. All are of rims, or none is.
+template <typename V, typename Read>
+RP_LANES typename LanesOf<V>::Mask addPoints(IcpSumsOf<typename LanesOf<V>::Double>& sums,
+                                             const IcpView& view,
+                                             const Read& read,
+                                             const IcpPoints<V>& own,
+                                             bool rim) {
+  const Lane3<V> turned = icp_detail::turned(view, own.position_mm);
+  const Lane3<V> point{
+      turned.x + view.shift_mm[0], turned.y + view.shift_mm[1], turned.z + view.shift_mm[2]};
+  const Lane3<V> normal = icp_detail::turned(view, own.normal);
+  return rim ? addRim(sums, view, read, own.wanted, point, normal)
+             : addFace(sums, view, read, own.wanted, point, normal);
+}
+
+/// Whether a point can have a partner at all.
+RP_HD bool isAligned(const SurfacePoint& point, const IcpOptions& options) {
+  return !point.rim || options.rim_reach_mm > 0.0;
+}
+
+/// One point for addPoints.
+RP_HD IcpPoints<float> onePoint(const SurfacePoint& point, const IcpOptions& options) {
+  return {isAligned(point, options),
+          {point.position_mm.x, point.position_mm.y, point.position_mm.z},
+          {point.normal.x, point.normal.y, point.normal.z}};
+}
+
+}  // namespace rangepose
