@@ -16,16 +16,22 @@ PackedViews packViews(const ReferenceObject& object) {
     entry.first = static_cast<int>(packed.pixels.size());
     entry.area_px = view.area_px;
     entry.anchor_px = view.anchor_px;
-    for (int v = view.box.y0; v < view.box.y1; ++v) {
-      for (int u = view.box.x0; u < view.box.x1; ++u) {
-        const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
-        if (texel.a <= 0.0f) continue;
-        packed.pixels.push_back({texel.r, texel.g, texel.a, u + 65536 * v});
-        if (texel.r > 0.0f) entry.cover_count += 1.0f;
+    const auto append = [&](int odd) {
+      for (int v = view.box.y0 + (view.box.y0 % 2 == odd ? 0 : 1); v < view.box.y1; v += 2) {
+        for (int u = view.box.x0; u < view.box.x1; ++u) {
+          const ReferenceTexel& texel = object.atlas.at(origin.x + u, origin.y + v);
+          if (texel.a <= 0.0f) continue;
+          packed.pixels.push_back({texel.r, texel.g, texel.a, u + 65536 * v});
+          ++entry.all.count;
+          if (texel.r > 0.0f) entry.all.cover_count += 1.0f;
+        }
       }
-    }
-    entry.count = static_cast<int>(packed.pixels.size()) - entry.first;
-    packed.most_pixels = std::max(packed.most_pixels, entry.count);
+    };
+    append(0);
+    entry.even = entry.all;
+    append(1);
+    packed.most_pixels = std::max(packed.most_pixels, entry.all.count);
+    packed.most_even_pixels = std::max(packed.most_even_pixels, entry.even.count);
     packed.entries.push_back(entry);
   }
   return packed;
@@ -43,6 +49,7 @@ SearchSetup searchSetup(const ReferenceObject& object,
   setup.lambda_per_px = options.error.lambdaPerPx();
   setup.range = rangeRule(options.error.range_limit_px, options.error.holes);
   setup.area = options.error.area;
+  setup.row_step = options.error.row_step;
   setup.simplex = options.simplex;
   setup.frame = windowFrame(window_px, object.size);
   return setup;

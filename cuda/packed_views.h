@@ -12,6 +12,7 @@ struct PackedViews {
   std::vector<ViewEntry> entries;  ///< one a view
   std::vector<ViewPixel> pixels;   ///< view after view, row by row
   int most_pixels = 0;             ///< of a view
+  int most_even_pixels = 0;        ///< of a view's even rows
 };
 
 PackedViews packViews(const ReferenceObject& object);

@@ -18,6 +18,7 @@ ResidentObject::ResidentObject(const ReferenceObject& object, cudaStream_t strea
     : serial_(object.serial), outside_distance_(-static_cast<float>(object.edt_passes + 1)) {
   const PackedViews packed = checkedPack(object);
   most_pixels_ = packed.most_pixels;
+  most_even_pixels_ = packed.most_even_pixels;
   entries_ = Buffer<ViewEntry>(packed.entries, stream);
   pixels_ = Buffer<ViewPixel>(packed.pixels, stream);
 }

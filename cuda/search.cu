@@ -110,7 +110,7 @@ void search(const ResidentObject& object,
             cudaStream_t stream) {
   RP_CHECK(setup.views == object.views(), "the setup belongs to another object");
   if (setup.views == 0 || window_count == 0) return;
-  const int slots = searchSlots(object.mostPixels());
+  const int slots = searchSlots(object.mostPixels(setup.row_step));
   const auto launch = slots == 3    ? launchSearch<3>
                       : slots == 6  ? launchSearch<6>
                       : slots == 12 ? launchSearch<12>

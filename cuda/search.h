@@ -20,8 +20,8 @@ class ResidentObject {
   /// Whether it still shows the object: false once that got another atlas.
   bool isOf(const ReferenceObject& object) const { return serial_ == object.serial; }
   int views() const { return static_cast<int>(entries_.size()); }
-  /// Of the view that shows most [px].
-  int mostPixels() const { return most_pixels_; }
+  /// Of the view that shows most, every `row_step`-th row of it [px].
+  int mostPixels(int row_step) const { return row_step == 2 ? most_even_pixels_ : most_pixels_; }
   /// Of what lies outside of a window [px].
   float outsideDistance() const { return outside_distance_; }
   const ViewEntry* entries() const { return entries_.data(); }
@@ -30,6 +30,7 @@ class ResidentObject {
  private:
   std::uint64_t serial_;  ///< ReferenceObject::serial
   int most_pixels_;
+  int most_even_pixels_;
   float outside_distance_;
   Buffer<ViewEntry> entries_;
   Buffer<ViewPixel> pixels_;

@@ -75,9 +75,13 @@ class ViewInWindow {
                        const ViewEntry& view,
                        const ViewPixel* pixels,
                        const WindowTexel* window)
-      : block_(block), setup_(setup), view_(view), pixels_(pixels + view.first), window_(window) {
+      : block_(block),
+        setup_(setup),
+        rows_(setup.row_step == 2 ? view.even : view.all),
+        pixels_(pixels + view.first),
+        window_(window) {
     block_.forEachThread([&](int thread) {
-      kept_[thread].load(pixels_, view_.count, thread, Block::kThreads, setup_.frame.stride());
+      kept_[thread].load(pixels_, rows_.count, thread, Block::kThreads, setup_.frame.stride());
     });
   }
 
@@ -93,7 +97,7 @@ class ViewInWindow {
     const int tile = row * stride + column;
     const float shift_z = z - static_cast<float>(setup_.size);
     typename Block::template PerThread<MovingSums> sums;
-    const int count = reachable ? view_.count : 0;
+    const int count = reachable ? rows_.count : 0;
     block_.forEachThread([&](int thread) {
       MovingSums sum;
       kept_[thread].forEach(
@@ -104,7 +108,7 @@ class ViewInWindow {
     });
     block_.template sum<float>(sums, [&](const MovingSums& sum) {
       then(ErrorTerms{
-          sum.cover_sum, reachable ? view_.cover_count : 0.0f, sum.range_sum, sum.range_weight});
+          sum.cover_sum, reachable ? rows_.cover_count : 0.0f, sum.range_sum, sum.range_weight});
     });
   }
 
@@ -128,7 +132,7 @@ class ViewInWindow {
 
   Block& block_;
   const SearchSetup& setup_;
-  const ViewEntry& view_;
+  const ViewEntry::Rows rows_;
   const ViewPixel* pixels_;
   const WindowTexel* window_;
   typename Block::template PerThread<KeptPixels<kSlots>> kept_;

@@ -18,9 +18,15 @@ struct alignas(16) ViewPixel {
 
 /// Where a view's pixels lie, and what does not depend on the translation.
 struct ViewEntry {
-  int first = 0;             ///< of its pixels
-  int count = 0;             ///< of its pixels
-  float cover_count = 0.0f;  ///< sum of f (Eq. 4)
+  /// Pixels that are summed, and those of them with f = 1 (Eq. 4).
+  struct Rows {
+    int count = 0;
+    float cover_count = 0.0f;
+  };
+
+  int first = 0;  ///< of its pixels; those of even rows of the tile come first
+  Rows all;
+  Rows even;  ///< see ErrorOptions::row_step
   float area_px = 0.0f;
   glm::vec3 anchor_px{0.0f};
 };
@@ -75,6 +81,7 @@ struct SearchSetup {
   float lambda_per_px = 0.0f;  ///< weight of E_range
   RangeRule range{};
   AreaFactor area = AreaFactor::kIntended;
+  int row_step = 1;
   SimplexOptions simplex;
   WindowFrame frame;
 };

@@ -33,7 +33,7 @@ RP_BODY ErrorTerms stagedPixel(const SearchSetup& setup,
   const float reach = maxShiftPx(setup.size);
   // Written so that a NaN is outside too.
   const bool reachable = at.x >= -reach && at.x <= reach && at.y >= -reach && at.y <= reach;
-  if (!reachable || reference.a <= 0.0f) return {};
+  if (!reachable || reference.a <= 0.0f || v % setup.row_step != 0) return {};
   const int width = setup.frame.width;
   const int margin = setup.frame.origin - setup.frame.pad;
   const int x = u + margin + static_cast<int>(std::floor(at.x + 0.5f));

@@ -10,6 +10,7 @@ uniform float u_max_shift;           // [px]
 uniform float u_outside_distance;    // of what lies outside of the window [px]
 uniform float u_range_limit;         // [px]
 uniform int u_holes;                 // HolePolicy
+uniform int u_row_step;              // other rows of a tile are left out
 
 flat in highp ivec2 v_tile;
 flat in highp vec3 v_translation;
@@ -24,6 +25,7 @@ void main() {
   bool reachable = abs(v_translation.x) <= u_max_shift && abs(v_translation.y) <= u_max_shift;
   if (!reachable) return;
   ivec2 pixel = ivec2(gl_FragCoord.xy);
+  if ((pixel.y - v_tile.y) % u_row_step != 0) return;
   vec4 reference = texelFetch(u_atlas, pixel, 0);
   if (reference.a <= 0.0) return;
   ivec2 window = textureSize(u_scene_range, 0);

@@ -67,6 +67,7 @@ const Texture& evaluate(Device& device,
       .set("u_outside_distance", object.outsideDistance())
       .set("u_range_limit", options.range_limit_px)
       .set("u_holes", static_cast<int>(options.holes))
+      .set("u_row_step", options.row_step)
       .drawQuads(object.boxes(), object.views());
   const int last = static_cast<int>(object.levels().size()) - 1;
   for (int level = 1; level <= last; ++level) {

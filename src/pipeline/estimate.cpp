@@ -86,8 +86,7 @@ class Estimator {
       tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
       pass.starts += static_cast<int>(starts.size());
       const Windows windows = cutWindows(object, resident, starts, object_trace);
-      const std::vector<Hypothesis> hypotheses =
-          search(object, windows, effort.iterations, object_trace);
+      const std::vector<Hypothesis> hypotheses = search(object, windows, effort, object_trace);
       const ScopedTimer timer(result_.times, "select");
       const std::vector<Candidate> own = bestCandidates(
           object, static_cast<int>(i), hypotheses, windows.cameras, scene, effort.kept);
@@ -206,12 +205,13 @@ class Estimator {
 
   std::vector<Hypothesis> search(const ReferenceObject& object,
                                  const Windows& windows,
-                                 int iterations,
+                                 const PassEffort& effort,
                                  ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "rough search");
     SearchOptions search_options = options_.search;
     search_options.error.image_width_px = object.size;
-    search_options.simplex.max_iterations = iterations;
+    search_options.simplex.max_iterations = effort.iterations;
+    search_options.error.row_step = effort.row_step;
     std::vector<const ResidentScene*> scenes;
     for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
     std::vector<Hypothesis> hypotheses =
@@ -239,13 +239,14 @@ class Estimator {
 PassEffort EstimateOptions::effort(int pass) const {
   // One pose must come from what three starts give, the paper's N_init. Several poses: first a
   // quick look everywhere, then a closer one at what is left. There the alignment finds what half
-  // the simplexes' steps leave.
+  // the simplexes' steps leave, each with half of a view's rows.
   const int most = search.simplex.max_iterations;
-  const PassEffort one{3, most, 256, 16, {2, 900, 3, 1e-4}};
-  constexpr PassEffort kQuick{40, 20, 80, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{10, 20, 160, 12, {1, 450, 3, 1e-3}};
+  const PassEffort one{3, most, 1, 256, 16, {2, 900, 3, 1e-4}};
+  constexpr PassEffort kQuick{40, 20, 2, 80, 4, {1, 450, 2, 1e-3}};
+  constexpr PassEffort kClose{10, 20, 2, 160, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
   result.iterations = std::min(result.iterations, most);
+  result.row_step = std::max(result.row_step, search.error.row_step);
   if (starts > 0) result.starts = starts;
   if (kept_per_start > 0) result.kept = kept_per_start;
   if (verified > 0) result.verified = verified;

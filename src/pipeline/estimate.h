@@ -21,6 +21,7 @@ namespace rangepose {
 struct PassEffort {
   int starts;      ///< N_init, paper Sect. 6.1
   int iterations;  ///< of a simplex, at most; never more than SearchOptions say
+  int row_step;    ///< see ErrorOptions; never less than SearchOptions say
   int kept;        ///< hypotheses of a start that are aligned with their view's own points
   int verified;    ///< of these, how many are rendered, aligned again and checked
   FineEffort fine;

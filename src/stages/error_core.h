@@ -41,6 +41,8 @@ struct ErrorOptions {
       8.0f;  ///< range differences count at most this much [px]; in the paper without limit
   AreaFactor area = AreaFactor::kIntended;
   HolePolicy holes = HolePolicy::kIgnore;
+  /// 1, or 2: only every other row of a view is summed, the first one of its tile included.
+  int row_step = 1;
   float lambdaPerPx() const { return lambda / static_cast<float>(image_width_px); }
   void check() const;
 };

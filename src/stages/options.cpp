@@ -26,6 +26,7 @@ void ErrorOptions::check() const {
   RP_CHECK(range_limit_px > 0.0f, "range_limit_px must be positive");
   RP_CHECK(holes != HolePolicy::kLimit || std::isfinite(range_limit_px),
            "range_limit_px must be finite where holes count as much as it");
+  RP_CHECK(row_step == 1 || row_step == 2, "row_step must be 1 or 2");
 }
 
 glm::vec3 startTranslation(const ReferenceObject& object, int view, float seed_range_px) {

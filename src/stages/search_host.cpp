@@ -48,6 +48,7 @@ class PaddedWindow {
 struct Evaluation {
   const PackedViews::Row* rows;
   int row_count;
+  int row_step;
   const float* reference_distance;
   const float* reference_range;
   const float* reference_cosine;
@@ -62,15 +63,20 @@ struct Evaluation {
 RP_ALWAYS_INLINE Float8 absolute(const Float8& v) { return v < 0.0f ? -v : v; }
 
 /// Sums of Eq. 3 and 5; the weights are those of the pixels that count.
-RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e, float cover_count, float range_weight) {
+RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e) {
   Float8 cover{};
   Float8 range{};
   Float8 kept{};
   const Float8 limit = splat8(e.range_limit);
   const Float8 zero{};
   const Float8 over_hole = e.holes == HolePolicy::kLimit ? limit : zero;
+  float cover_count = 0.0f;
+  float range_weight = 0.0f;
   for (int r = 0; r < e.row_count; ++r) {
     const PackedViews::Row& row = e.rows[r];
+    if ((row.v & (e.row_step - 1)) != 0) continue;
+    cover_count += row.cover_count;
+    range_weight += row.range_weight;
     const float* scene_distance = e.scene_distance + row.v * e.stride + row.u;
     const float* scene_range = e.scene_range + row.v * e.stride + row.u;
     for (int i = 0; i < row.count; i += kLanes) {
@@ -106,6 +112,7 @@ ErrorTerms termsAt(const PackedViews& packed,
                                    static_cast<int>(std::floor(translation.y + 0.5f)));
   const Evaluation evaluation = {packed.rows(view),
                                  view.row_count,
+                                 options.row_step,
                                  packed.distance(),
                                  packed.range(),
                                  packed.cosine(),
@@ -115,7 +122,7 @@ ErrorTerms termsAt(const PackedViews& packed,
                                  translation.z - static_cast<float>(size),
                                  options.range_limit_px,
                                  options.holes};
-  return sumErrors(evaluation, view.cover_count, view.range_weight);
+  return sumErrors(evaluation);
 }
 
 float backgroundDistance(const ReferenceObject& object) {
@@ -141,16 +148,17 @@ void PackedViews::pack(const ReferenceObject& object, int index) {
     while (last >= first && texels[last].a == 0.0f) --last;
     if (first > last) continue;
     const int count = (last - first + kLanes) / kLanes * kLanes;
-    rows_.push_back({first, v, static_cast<int>(distance_.size()), count});
+    Row row{first, v, static_cast<int>(distance_.size()), count};
     for (int u = first; u < first + count; ++u) {
       const ReferenceTexel texel = u <= last ? texels[u] : ReferenceTexel(0.0f);
       const bool shown = texel.a > 0.0f;
       distance_.push_back(shown ? texel.r : 0.0f);
       range_.push_back(shown ? texel.g : 0.0f);
       cosine_.push_back(shown ? texel.a : 0.0f);
-      if (shown && texel.r > 0.0f) view.cover_count += 1.0f;
-      view.range_weight += shown ? texel.a : 0.0f;
+      if (shown && texel.r > 0.0f) row.cover_count += 1.0f;
+      row.range_weight += shown ? texel.a : 0.0f;
     }
+    rows_.push_back(row);
     ++view.row_count;
   }
   views_.push_back(view);

@@ -21,12 +21,13 @@ class PackedViews {
     int v = 0;       ///< row in the tile
     int offset = 0;  ///< of the first pixel in the planes
     int count = 0;   ///< pixels, a multiple of kLanes
+    // What does not depend on the translation.
+    float cover_count = 0.0f;   ///< sum of f (Eq. 4)
+    float range_weight = 0.0f;  ///< sum of c (Eq. 6)
   };
   struct View {
     int first_row = 0;
     int row_count = 0;
-    float cover_count = 0.0f;   ///< sum of f (Eq. 4): does not depend on the translation
-    float range_weight = 0.0f;  ///< sum of c (Eq. 6)
   };
 
   explicit PackedViews(const ReferenceObject& object);

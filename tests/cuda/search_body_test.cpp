@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cuda/search_scene.h"
 #include "stages/search_host.h"
@@ -29,14 +30,16 @@ TEST(SearchBodyTest, ViewsKeepEveryPixelOfTheObjectOnce) {
   const cuda::PackedViews packed = cuda::packViews(object);
   ASSERT_EQ(packed.entries.size(), 7U);
   int most = 0;
+  int most_even = 0;
   for (int view = 0; view < 7; ++view) {
     const cuda::ViewEntry& entry = packed.entries[static_cast<std::size_t>(view)];
     Image<int> seen(48, 48);
-    for (int i = entry.first; i < entry.first + entry.count; ++i) {
+    for (int i = entry.first; i < entry.first + entry.all.count; ++i) {
       const cuda::ViewPixel& pixel = packed.pixels[static_cast<std::size_t>(i)];
       const int u = pixel.place % 65536;
       const int v = pixel.place / 65536;
       ++seen.at(u, v);
+      EXPECT_EQ(i < entry.first + entry.even.count, v % 2 == 0) << "even rows come first";
       const glm::ivec2 at = object.tileOrigin(view) + glm::ivec2(u, v);
       EXPECT_EQ(glm::vec3(object.atlas.at(at.x, at.y).r,
                           object.atlas.at(at.x, at.y).g,
@@ -49,9 +52,11 @@ TEST(SearchBodyTest, ViewsKeepEveryPixelOfTheObjectOnce) {
         EXPECT_EQ(seen.at(u, v), object.atlas.at(at.x, at.y).a > 0.0f ? 1 : 0);
       }
     }
-    most = std::max(most, entry.count);
+    most = std::max(most, entry.all.count);
+    most_even = std::max(most_even, entry.even.count);
   }
   EXPECT_EQ(packed.most_pixels, most);
+  EXPECT_EQ(packed.most_even_pixels, most_even);
 }
 
 TEST(SearchBodyTest, NoShiftReadsPastTheFrame) {
@@ -71,9 +76,13 @@ TEST(SearchBodyTest, SumsAreThoseOfTheHost) {
     const ReferenceObject object = test::renderedBracket(30, size, 21);
     const SceneChannels window = test::windowWith(object, 4, 3);
     const std::vector<glm::vec3> at = test::scatteredTranslations(object, 6);
-    for (const HolePolicy holes : {HolePolicy::kPaper, HolePolicy::kIgnore, HolePolicy::kLimit}) {
+    for (const auto& [holes, row_step] : {std::pair{HolePolicy::kPaper, 1},
+                                          {HolePolicy::kIgnore, 1},
+                                          {HolePolicy::kLimit, 1},
+                                          {HolePolicy::kIgnore, 2}}) {
       SearchOptions options;
       options.error.holes = holes;
+      options.error.row_step = row_step;
       const FusedInput in(object, window, options);
       const std::vector<ErrorTerms> expected =
           host::errorTerms(object, host::PackedViews(object), window, at, options.error);

@@ -128,6 +128,7 @@ TEST_F(SearchGpuTest, SumsAreThoseOfTheBody) {
   for (const HolePolicy holes : {HolePolicy::kPaper, HolePolicy::kIgnore, HolePolicy::kLimit}) {
     SearchOptions options;
     options.error.holes = holes;
+    options.error.row_step = holes == HolePolicy::kIgnore ? 2 : 1;
     const FusedInput in(object, window, options);
     EXPECT_EQ(differences(fusedTerms(object, in, at), test::termsOnHost<0, kSearchThreads>(in, at)),
               0);

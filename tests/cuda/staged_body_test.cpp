@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cuda/search_scene.h"
 #include "stages/search_host.h"
@@ -56,9 +57,13 @@ TEST(StagedBodyTest, SumsAreThoseOfTheHost) {
     const ReferenceObject object = test::renderedBracket(12, size, 21);
     const SceneChannels window = test::windowWith(object, 4, 3);
     const std::vector<glm::vec3> at = test::scatteredTranslations(object, 6);
-    for (const HolePolicy holes : {HolePolicy::kPaper, HolePolicy::kIgnore, HolePolicy::kLimit}) {
+    for (const auto& [holes, row_step] : {std::pair{HolePolicy::kPaper, 1},
+                                          {HolePolicy::kIgnore, 1},
+                                          {HolePolicy::kLimit, 1},
+                                          {HolePolicy::kIgnore, 2}}) {
       SearchOptions options;
       options.error.holes = holes;
+      options.error.row_step = row_step;
       const cuda::SearchSetup setup = cuda::searchSetup(object, window.range_px.width(), options);
       const std::vector<ErrorTerms> expected =
           host::errorTerms(object, host::PackedViews(object), window, at, options.error);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "gles/references_gles.h"
 #include "parity/parity_fixture.h"
@@ -66,9 +67,13 @@ TEST_P(SearchParity, ErrorSumsAgree) {
     renderReferences(object);
     const SceneChannels window = windowWith(object, 4, 57.0f, 3);
     Random random(6);
-    for (const HolePolicy holes : {HolePolicy::kPaper, HolePolicy::kIgnore, HolePolicy::kLimit}) {
+    for (const auto& [holes, row_step] : {std::pair{HolePolicy::kPaper, 1},
+                                          {HolePolicy::kIgnore, 1},
+                                          {HolePolicy::kLimit, 1},
+                                          {HolePolicy::kIgnore, 2}}) {
       ErrorOptions options;
       options.holes = holes;
+      options.row_step = row_step;
       std::vector<glm::vec3> translations;
       translations.reserve(30);
       for (int i = 0; i < 30; ++i) {

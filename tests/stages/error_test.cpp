@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "stages/channels_host.h"
 #include "stages/reference_host.h"
@@ -54,11 +55,12 @@ TEST(ErrorTest, SumsAreThoseOfThePaper) {
     const host::PackedViews packed(object);
     Random random(static_cast<unsigned>(size));
     for (const HolePolicy holes : kPolicies) {
-      for (const float limit : {8.0f, 1.5f}) {
+      for (const auto& [limit, row_step] : {std::pair{8.0f, 1}, {1.5f, 1}, {8.0f, 2}}) {
         const SceneChannels window = windowOf(2 * size, 3);
         ErrorOptions options;
         options.holes = holes;
         options.range_limit_px = limit;
+        options.row_step = row_step;
         std::vector<glm::vec3> at;
         at.reserve(21);
         for (int i = 0; i < 21; ++i) {
@@ -75,8 +77,8 @@ TEST(ErrorTest, SumsAreThoseOfThePaper) {
           expectTerms(terms[i],
                       oracle::errorTerms(object, view, window, at[i], options, background),
                       "size " + std::to_string(size) + ", holes " +
-                          std::to_string(static_cast<int>(holes)) + ", view " +
-                          std::to_string(view));
+                          std::to_string(static_cast<int>(holes)) + ", rows " +
+                          std::to_string(row_step) + ", view " + std::to_string(view));
         }
       }
     }

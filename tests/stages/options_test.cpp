@@ -55,6 +55,7 @@ TEST(OptionsTest, ErrorNamesTheBadField) {
   for (const float value : {0.0f, -8.0f, kNan}) {
     expectRefused(&ErrorOptions::range_limit_px, value, "range_limit_px");
   }
+  for (const int value : {0, 3}) expectRefused(&ErrorOptions::row_step, value, "row_step");
 }
 
 TEST(OptionsTest, AHoleCannotCountAsMuchAsAnInfiniteLimit) {
@@ -71,6 +72,7 @@ TEST(OptionsTest, IcpNamesTheBadField) {
   for (const double value : {0.0, -2.0}) expectRefused(&IcpOptions::last_reach_mm, value, "reach");
   expectRefused(&IcpOptions::first_reach_mm, std::numeric_limits<double>::quiet_NaN(), "reach");
   expectRefused(&IcpOptions::slide, -0.1, "slide");
+  expectRefused(&IcpOptions::rim_steps, 0, "rim steps");
 }
 
 }  // namespace

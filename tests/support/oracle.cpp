@@ -114,7 +114,7 @@ Terms errorTerms(const ReferenceObject& object,
   const int margin = (window.range_px.width() - object.size) / 2;
   const int shift_x = static_cast<int>(std::floor(translation.x + 0.5f));
   const int shift_y = static_cast<int>(std::floor(translation.y + 0.5f));
-  for (int v = 0; v < object.size; ++v) {
+  for (int v = 0; v < object.size; v += options.row_step) {
     for (int u = 0; u < object.size; ++u) {
       const ReferenceTexel texel = object.atlas.at(origin.x + u, origin.y + v);
       const int x = u + margin + shift_x;
