@@ -188,18 +188,21 @@ class Estimator {
     const ScopedTimer timer(result_.times, "windows");
     Windows windows;
     const int width = kWindowScale * object.size;
+    std::vector<WindowTask> tasks;
     for (const glm::dvec3& point : starts) {
       const OrthoCamera camera = windowCamera(depth_.camera, point, width, object.pixel_mm);
-      const PixelBox region = windowRegion(depth_.camera, point, width, object.pixel_mm);
-      windows.scenes.push_back(stages_.prepare(resident, camera, region, channelOptionsOf(object)));
+      tasks.push_back({camera, windowRegion(depth_.camera, point, width, object.pixel_mm)});
       windows.cameras.push_back(camera);
       const glm::dvec3 in_window = camera.camera_from_ortho.inverse() * point;
       windows.seed_range_px.push_back(static_cast<float>(in_window.z / object.pixel_mm));
-      if (trace == nullptr) continue;
-      trace->windows.push_back(windows.scenes.back()->download());
-      trace->window_regions.push_back(region);
     }
-    if (trace != nullptr) trace->seed_range_px = windows.seed_range_px;
+    windows.scenes = stages_.prepareEach(resident, tasks, channelOptionsOf(object));
+    if (trace == nullptr) return windows;
+    for (std::size_t i = 0; i < tasks.size(); ++i) {
+      trace->windows.push_back(windows.scenes[i]->download());
+      trace->window_regions.push_back(tasks[i].region);
+    }
+    trace->seed_range_px = windows.seed_range_px;
     return windows;
   }
 

@@ -23,6 +23,16 @@ constexpr double kRival = 0.5;         // of the pixels of the larger of two pos
 constexpr double kFound = 0.5;         // confidence from which on a part hides others
 constexpr double kSure = 0.98;         // confidence from which on nobody looks there again
 
+PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
+  if (pixels.empty()) return {};
+  PixelBox box{width, pixels.front() / width, 0, pixels.back() / width + 1};
+  for (const std::int32_t at : pixels) {
+    box.x0 = std::min(box.x0, at % width);
+    box.x1 = std::max(box.x1, at % width + 1);
+  }
+  return box;
+}
+
 }  // namespace
 
 Selection::Selection(const DepthImage& depth,
@@ -107,6 +117,7 @@ void Selection::describe(Entry& entry) const {
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
   entry.pixels = explainedPixels(surface, window, depth_, same_mm);
+  entry.box = boxAround(entry.pixels, depth_.camera.width);
   if (candidate.confidence >= kFound)
     entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
   entry.buried = buriedPixels(surface, window, depth_, checkOptionsFor(object, noise_mm_));
@@ -114,6 +125,20 @@ void Selection::describe(Entry& entry) const {
   if (!(check.explained > 0.0)) return;
   entry.fit =
       check.explained_mm2 * (1.0 - check.contradicted / check.explained) / meanVisibleArea(object);
+}
+
+std::size_t Selection::shared(const Entry& a, const Entry& b) {
+  if (a.box.x0 >= b.box.x1 || b.box.x0 >= a.box.x1 || a.box.y0 >= b.box.y1 ||
+      b.box.y0 >= a.box.y1) {
+    return 0;
+  }
+  std::size_t count = 0;
+  auto at = b.pixels.begin();
+  for (const std::int32_t pixel : a.pixels) {
+    while (at != b.pixels.end() && *at < pixel) ++at;
+    if (at != b.pixels.end() && *at == pixel) ++count;
+  }
+  return count;
 }
 
 double Selection::preference(const Entry& entry) { return entry.candidate.rank + kFit * entry.fit; }
@@ -140,16 +165,11 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
 }
 
 std::vector<const Selection::Entry*> Selection::rivalsOf(const Entry& entry) const {
-  std::vector<std::uint8_t> own(depth_.depth_mm.size(), 0);
-  for (const std::int32_t at : entry.pixels) own[static_cast<std::size_t>(at)] = 1;
   std::vector<const Entry*> rivals;
   for (const Entry& other : entries_) {
     if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
-    const auto shared = std::count_if(other.pixels.begin(), other.pixels.end(), [&](int at) {
-      return own[static_cast<std::size_t>(at)] != 0;
-    });
     const auto larger = std::max(entry.pixels.size(), other.pixels.size());
-    if (static_cast<double>(shared) >= kRival * static_cast<double>(larger))
+    if (static_cast<double>(shared(entry, other)) >= kRival * static_cast<double>(larger))
       rivals.push_back(&other);
   }
   return rivals;

@@ -42,7 +42,8 @@ class Selection {
   struct Entry {
     Candidate candidate;               ///< judged among the others
     Candidate alone;                   ///< as it was added
-    std::vector<std::int32_t> pixels;  ///< explained ones, by index
+    std::vector<std::int32_t> pixels;  ///< explained ones, by rising index
+    PixelBox box;                      ///< around them
     std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
     std::vector<BuriedPixel> buried;
     double fit = 0.0;     ///< surface explained less surface contradicted [mean visible areas]
@@ -55,6 +56,8 @@ class Selection {
   /// speak against it.
   void judgeAmongOthers();
   void orderByRank();
+  /// How many pixels both explain.
+  static std::size_t shared(const Entry& a, const Entry& b);
   /// Log odds among poses for the same surface.
   static double preference(const Entry& entry);
   /// Those that share no surface, in the order of the surest pose for it.

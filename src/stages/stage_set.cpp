@@ -32,7 +32,7 @@ class HostDepth : public ResidentDepth {
   const Image<float> foreground_mm;
 };
 
-/// Tasks of a piece where each renders: all, one after the other, where the path belongs to one
+/// Tasks of a piece where each renders or is a stage: all, one after the other, where the path belongs to one
 /// thread.
 int renderGrain(const StageSet& stages, std::size_t tasks) {
   return stages.concurrent() ? 1 : std::max(static_cast<int>(tasks), 1);
@@ -63,6 +63,16 @@ std::unique_ptr<ResidentScene> StageSet::prepare(const ResidentDepth& depth,
                                                  const ChannelOptions& options) {
   const auto& own = static_cast<const HostDepth&>(depth);
   return prepare(own.depth, own.keep, camera, region, options);
+}
+
+std::vector<std::unique_ptr<ResidentScene>> StageSet::prepareEach(
+    const ResidentDepth& depth,
+    const std::vector<WindowTask>& windows,
+    const ChannelOptions& options) {
+  return forEachTask<std::unique_ptr<ResidentScene>>(
+      windows, renderGrain(*this, windows.size()), [&](const WindowTask& window) {
+        return prepare(depth, window.camera, window.region, options);
+      });
 }
 
 std::vector<IcpResult> StageSet::align(const ResidentDepth& depth,

@@ -75,6 +75,12 @@ struct RenderTask {
   CheckOptions check;
 };
 
+/// A scene window to be prepared; see StageSet::prepare.
+struct WindowTask {
+  OrthoCamera camera;
+  PixelBox region;
+};
+
 class StageSet {
  public:
   virtual ~StageSet() = default;
@@ -134,6 +140,10 @@ class StageSet {
                                                  const OrthoCamera& camera,
                                                  const PixelBox& region,
                                                  const ChannelOptions& options);
+  /// `prepare` of each, in order.
+  std::vector<std::unique_ptr<ResidentScene>> prepareEach(const ResidentDepth& depth,
+                                                          const std::vector<WindowTask>& windows,
+                                                          const ChannelOptions& options);
   /// One result a task, in order. `depth` comes from the same path.
   virtual std::vector<IcpResult> align(const ResidentDepth& depth,
                                        const std::vector<AlignTask>& tasks);
