@@ -5,6 +5,8 @@
 #include <map>
 #include <utility>
 
+#include "core/error.h"
+#include "core/parallel.h"
 #include "pipeline/confidence.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/scene_window.h"
@@ -12,26 +14,40 @@
 namespace rangepose {
 namespace {
 
+using Windows = std::vector<std::vector<Candidate>>;  ///< candidates of each window
+
+/// Calls `body(window)` for each, on all cores.
+template <typename Body>
+void forEachWindow(std::size_t count, const Body& body) {
+  parallelFor(static_cast<int>(count), 1, [&](int begin, int end) {
+    for (int w = begin; w < end; ++w) body(static_cast<std::size_t>(w));
+  });
+}
+
 /// Judges rough poses by a few points of their views against the depth image. Unlike Eq. 1 it sees
 /// the difference between surface that is hidden and surface that is not there, which decides on
 /// parts that are partly covered.
-void judgeRoughly(std::vector<Candidate>& candidates,
-                  const ReferenceObject& object,
-                  const RefineScene& scene) {
+void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
   std::vector<int> views;
-  views.reserve(candidates.size());
-  for (const Candidate& candidate : candidates) views.push_back(candidate.view);
+  for (const std::vector<Candidate>& own : windows) {
+    for (const Candidate& candidate : own) views.push_back(candidate.view);
+  }
   const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
   std::vector<JudgeTask> tasks;
-  for (const Candidate& candidate : candidates) {
-    const auto view = static_cast<std::size_t>(candidate.view);
-    tasks.push_back({&points[view], candidate.pose, visibleArea(object, candidate.view), options});
+  tasks.reserve(views.size());
+  for (const std::vector<Candidate>& own : windows) {
+    for (const Candidate& candidate : own) {
+      const auto view = static_cast<std::size_t>(candidate.view);
+      tasks.push_back(
+          {&points[view], candidate.pose, visibleArea(object, candidate.view), options});
+    }
   }
   const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
   const double mean_mm2 = meanVisibleArea(object);
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    setVerdict(candidates[i], verdicts[i], mean_mm2);
+  std::size_t next = 0;
+  for (std::vector<Candidate>& own : windows) {
+    for (Candidate& candidate : own) setVerdict(candidate, verdicts[next++], mean_mm2);
   }
 }
 
@@ -132,23 +148,29 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
                                       const std::vector<OrthoCamera>& cameras,
                                       const RefineScene& scene,
                                       int count) {
-  std::vector<Candidate> best;
-  for (int w = 0; w < static_cast<int>(cameras.size()); ++w) {
-    std::vector<Candidate> own;
-    for (const Hypothesis& hypothesis : hypotheses) {
-      if (hypothesis.window != w || hypothesis.error >= kWorstError) continue;
-      const Pose pose = poseOf(hypothesis, object, cameras[static_cast<std::size_t>(w)]);
-      own.push_back({object_index, hypothesis.view, w, hypothesis.error, pose, pose, {}, 0.0});
+  const std::size_t views = object.views.size();
+  RP_CHECK(hypotheses.size() == views * cameras.size(),
+           "one hypothesis a view and window is needed");
+  Windows windows(cameras.size());
+  forEachWindow(windows.size(), [&](std::size_t w) {
+    for (std::size_t i = w * views; i < (w + 1) * views; ++i) {
+      const Hypothesis& one = hypotheses[i];
+      if (one.error >= kWorstError) continue;
+      const Pose pose = poseOf(one, object, cameras[w]);
+      windows[w].push_back({object_index, one.view, one.window, one.error, pose, pose, {}, 0.0});
     }
-    judgeRoughly(own, object, scene);
+  });
+  judgeRoughly(windows, object, scene);
+  forEachWindow(windows.size(), [&](std::size_t w) {
+    const std::vector<Candidate>& own = windows[w];
     const Order by_error = ordered(
         own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });
     const Order by_rank =
         ordered(own, [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-    const std::vector<Candidate> kept =
-        takeInTurn(by_error, by_rank, object, scene.enclosure, count);
-    best.insert(best.end(), kept.begin(), kept.end());
-  }
+    windows[w] = takeInTurn(by_error, by_rank, object, scene.enclosure, count);
+  });
+  std::vector<Candidate> best;
+  for (const std::vector<Candidate>& own : windows) best.insert(best.end(), own.begin(), own.end());
   return best;
 }
 
