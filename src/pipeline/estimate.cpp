@@ -246,7 +246,7 @@ PassEffort EstimateOptions::effort(int pass) const {
   const int most = search.simplex.max_iterations;
   const PassEffort one{3, most, 1, 256, 16, {2, 900, 3, 1e-4}};
   constexpr PassEffort kQuick{40, 20, 2, 80, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{10, 20, 2, 160, 12, {1, 450, 3, 1e-3}};
+  constexpr PassEffort kClose{10, 20, 2, 256, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
   result.iterations = std::min(result.iterations, most);
   result.row_step = std::max(result.row_step, search.error.row_step);

@@ -206,8 +206,16 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
                   const FineEffort& effort) {
+  // What its view's points explain of a mean visible area. Of 2,365 parts in tuning bins this loses
+  // one, and it spares half of the rendering; the best is rendered in any case.
+  constexpr double kFaint = 0.15;
   // Odds of e^-3: no long alignment makes such a pose right.
   constexpr double kHopeless = -3.0;
+  if (candidates.empty()) return;
+  candidates.erase(std::remove_if(candidates.begin() + 1,
+                                  candidates.end(),
+                                  [](const Candidate& one) { return one.rank < kFaint; }),
+                   candidates.end());
   refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);

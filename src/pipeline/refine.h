@@ -66,9 +66,9 @@ struct FineEffort {
   double still;   ///< a pose that moves by less in a round rests [share of the diameter]
 };
 
-/// Renders the candidates at the sensor's resolution, aligns the visible part, and checks the
-/// result; keeps the few best of each start and aligns those until they rest. Candidates that are
-/// beyond hope by then are dropped.
+/// Renders candidates of refineCoarsely at the sensor's resolution, aligns the visible part, and
+/// checks the result; keeps the few best of each start and aligns those until they rest. Candidates
+/// are dropped that explain next to nothing, or are beyond hope after the first check.
 void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
