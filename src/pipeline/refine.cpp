@@ -1,6 +1,7 @@
 #include "pipeline/refine.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <utility>
 
@@ -104,6 +105,13 @@ void alignWithViews(std::vector<Candidate>& candidates,
   setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
 }
 
+int mostOfAStart(const std::vector<Candidate>& candidates) {
+  std::map<std::pair<int, int>, int> counts;
+  int most = 0;
+  for (const Candidate& one : candidates) most = std::max(most, ++counts[{one.object, one.window}]);
+  return most;
+}
+
 }  // namespace
 
 std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
@@ -111,13 +119,18 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kMany{12, 1, 0.20, 2.0, 0.12, 6};
+  constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6};
+  constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6};
   constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16};
   constexpr int kPoints = 220;
+  constexpr int kPerMany = 3;  // of all
   constexpr int kFewPerKept = 4;
   const auto pointsOf = [&](int max_points) {
     return pointsOfViews(candidates, database, scene.stages, max_points);
   };
+  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), kAll);
+  const int many = std::max(mostOfAStart(candidates) / kPerMany, kFewPerKept * count);
+  candidates = bestDistinct(std::move(candidates), database, many);
   alignWithViews(candidates, database, scene, pointsOf(kFewPoints), kMany);
   std::erase_if(candidates, [&](const Candidate& one) {
     return !scene.enclosure.holds(one.object, one.pose, 0.0);
