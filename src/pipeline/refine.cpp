@@ -123,7 +123,7 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6};
   constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16};
   constexpr int kPoints = 220;
-  constexpr int kPerMany = 3;  // of all
+  constexpr int kPerMany = 2;  // of all
   constexpr int kFewPerKept = 4;
   const auto pointsOf = [&](int max_points) {
     return pointsOfViews(candidates, database, scene.stages, max_points);
