@@ -39,19 +39,15 @@ RP_BODY void endIteration(const IcpTask& task,
                           const PointSums& sums,
                           const Camera& camera,
                           IcpShared& shared) {
-  IcpResult& result = shared.result;
-  IcpFrame& frame = shared.frame;
-  ++result.iterations;
-  result.paired = task.point_count > 0 ? sums.pairs / static_cast<double>(task.point_count) : 0.0;
-  shared.done = true;
-  if (sums.pairs < kFewestPairs) return;
-  result.rms_mm = icpRms(sums.icp, task.radius_mm);
-  if (!icpMove(result.camera_from_object, sums.icp, frame, task.center_mm)) return;
-  frame.pose = result.camera_from_object;
-  frame.center_mm = frame.pose * task.center_mm;
-  frame.reach_mm *= task.shrink;
-  shared.view = icpView(frame, task.options, camera);
-  shared.done = result.iterations >= task.options.iterations;
+  const bool moved = icpAdvance(shared.result,
+                                shared.frame,
+                                sums.icp,
+                                sums.pairs,
+                                task.point_count,
+                                task.center_mm,
+                                task.shrink);
+  shared.view = icpView(shared.frame, task.options, camera);
+  shared.done = !moved || shared.result.iterations >= task.options.iterations;
 }
 
 /// `points` are those of all tasks. `read` as in icp_points_core.h.

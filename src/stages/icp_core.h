@@ -174,4 +174,31 @@ RP_HD bool icpMove(Pose& pose,
   return true;
 }
 
+struct IcpResult {
+  Pose camera_from_object;
+  double rms_mm = 0.0;  ///< weighted root mean square of the point-to-plane residuals [mm]
+  double paired = 0.0;  ///< share of the points that found a partner, 0..1
+  int iterations = 0;
+};
+
+/// Ends an iteration in which `pairs` of `points` had partners. False when it was the last one that
+/// can move the pose. `center_mm` as in icpMove.
+RP_HD bool icpAdvance(IcpResult& result,
+                      IcpFrame& frame,
+                      const IcpSums& sums,
+                      double pairs,
+                      int points,
+                      const glm::dvec3& center_mm,
+                      double shrink) {
+  ++result.iterations;
+  result.paired = points > 0 ? pairs / static_cast<double>(points) : 0.0;
+  if (pairs < kFewestPairs) return false;
+  result.rms_mm = icpRms(sums, frame.radius_mm);
+  if (!icpMove(result.camera_from_object, sums, frame, center_mm)) return false;
+  frame.pose = result.camera_from_object;
+  frame.center_mm = frame.pose * center_mm;
+  frame.reach_mm *= shrink;
+  return true;
+}
+
 }  // namespace rangepose

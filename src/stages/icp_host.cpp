@@ -86,11 +86,6 @@ struct DepthPixels {
   }
 };
 
-/// Sum in a fixed order, as sum8 of floats.
-RP_ALWAYS_INLINE double sumOf(const Double8& v) {
-  return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-}
-
 /// The sums of all points, and how many have a partner.
 struct PointSums {
   IcpSums sums;
@@ -106,10 +101,10 @@ RP_SIMD_CLONES void addAll(const Points& points,
   for (const Eight& block : points.faces)
     pairs -= addPoints(sums, view, depth, loaded(block), false);
   for (const Eight& block : points.rims) pairs -= addPoints(sums, view, depth, loaded(block), true);
-  for (int i = 0; i < 21; ++i) result.sums.hessian[i] = sumOf(sums.hessian[i]);
-  for (int i = 0; i < 6; ++i) result.sums.gradient[i] = sumOf(sums.gradient[i]);
-  result.sums.weight = sumOf(sums.weight);
-  result.sums.squared = sumOf(sums.squared);
+  for (int i = 0; i < 21; ++i) result.sums.hessian[i] = sum8(sums.hessian[i]);
+  for (int i = 0; i < 6; ++i) result.sums.gradient[i] = sum8(sums.gradient[i]);
+  result.sums.weight = sum8(sums.weight);
+  result.sums.squared = sum8(sums.squared);
   result.pairs = 0;
   for (int i = 0; i < kLanes; ++i) result.pairs += pairs[i];
 }
@@ -134,16 +129,8 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
   for (int iteration = 0; iteration < options.iterations; ++iteration) {
     PointSums all;
     addAll(eights, icpView(frame, options, camera), depth, all);
-    const auto& [sums, pairs] = all;
-    result.iterations = iteration + 1;
-    result.paired =
-        points.empty() ? 0.0 : static_cast<double>(pairs) / static_cast<double>(points.size());
-    if (pairs < kFewestPairs) return result;
-    result.rms_mm = icpRms(sums, radius_mm);
-    if (!icpMove(result.camera_from_object, sums, frame, center_mm)) return result;
-    frame.pose = result.camera_from_object;
-    frame.center_mm = frame.pose * center_mm;
-    frame.reach_mm *= shrink;
+    const int count = static_cast<int>(points.size());
+    if (!icpAdvance(result, frame, all.sums, all.pairs, count, center_mm, shrink)) return result;
   }
   return result;
 }

@@ -12,13 +12,6 @@ namespace rangepose {
 /// What the reach is multiplied with from one iteration to the next.
 double icpShrink(const IcpOptions& options);
 
-struct IcpResult {
-  Pose camera_from_object;
-  double rms_mm = 0.0;  ///< weighted root mean square of the point-to-plane residuals [mm]
-  double paired = 0.0;  ///< share of the points that found a partner, 0..1
-  int iterations = 0;
-};
-
 namespace host {
 
 /// Projective association: a model point looks for the nearest scene point in the image around its

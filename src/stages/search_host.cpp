@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "stages/simd.h"
+#include "stages/lanes.h"
 
 namespace rangepose::host {
 namespace {
@@ -60,8 +60,6 @@ struct Evaluation {
   HolePolicy holes;
 };
 
-RP_ALWAYS_INLINE Float8 absolute(const Float8& v) { return v < 0.0f ? -v : v; }
-
 /// Sums of Eq. 3 and 5; the weights are those of the pixels that count.
 RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e) {
   Float8 cover{};
@@ -83,9 +81,9 @@ RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e) {
       const Float8 reference_distance = load8(e.reference_distance + row.offset + i);
       const Float8 cosine = load8(e.reference_cosine + row.offset + i);
       const Float8 seen = load8(scene_range + i);
-      const Float8 gap = absolute(load8(scene_distance + i) - reference_distance);
+      const Float8 gap = magnitude(load8(scene_distance + i) - reference_distance);
       cover += reference_distance > zero ? gap : zero;
-      Float8 depth = absolute(seen - (load8(e.reference_range + row.offset + i) + e.shift_z));
+      Float8 depth = magnitude(seen - (load8(e.reference_range + row.offset + i) + e.shift_z));
       depth = depth > limit ? limit : depth;
       depth = seen == zero ? over_hole : depth;
       range += cosine * depth;

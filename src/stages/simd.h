@@ -24,7 +24,8 @@ RP_ALWAYS_INLINE Float8 load8(const float* from) {
 RP_ALWAYS_INLINE Float8 splat8(float value) { return Float8{} + value; }
 
 /// Sum in a fixed order: pairs at distance 4, 2, 1.
-RP_ALWAYS_INLINE float sum8(const Float8& v) {
+template <typename Eight>
+RP_ALWAYS_INLINE auto sum8(const Eight& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
 }
 

@@ -32,8 +32,8 @@ class HostDepth : public ResidentDepth {
   const Image<float> foreground_mm;
 };
 
-/// Tasks of a piece where each renders or is a stage: all, one after the other, where the path belongs to one
-/// thread.
+/// Tasks of a piece where each renders or is a stage: all, one after the other, where the path
+/// belongs to one thread.
 int renderGrain(const StageSet& stages, std::size_t tasks) {
   return stages.concurrent() ? 1 : std::max(static_cast<int>(tasks), 1);
 }

@@ -56,8 +56,9 @@ struct Wall {
     return options;
   }
 
-  float one(bool where, int u, int v) const { return where ? depth_mm.at(u, v) : 0.0f; }
-  Float8 eight(const Int8& where, const Int8& u, const Int8& v) const {
+  // As the reader of the formulas.
+  float operator()(bool where, int u, int v) const { return where ? depth_mm.at(u, v) : 0.0f; }
+  Float8 operator()(const Int8& where, const Int8& u, const Int8& v) const {
     Float8 values{};
     for (int i = 0; i < kLanes; ++i) {
       if (where[i] != 0) values[i] = depth_mm.at(u[i], v[i]);
@@ -103,7 +104,6 @@ class IcpPointsTest : public testing::TestWithParam<bool> {};
 
 TEST_P(IcpPointsTest, PartnersAreTheNearestOfTheGrid) {
   const Wall wall(GetParam());
-  const auto read = [&](bool where, int u, int v) { return wall.one(where, u, v); };
   Random random(5);
   int found = 0;
   int none = 0;
@@ -114,7 +114,7 @@ TEST_P(IcpPointsTest, PartnersAreTheNearestOfTheGrid) {
     const Lane3<float> at{
         static_cast<float>(point.x), static_cast<float>(point.y), static_cast<float>(point.z)};
     const IcpView view = wall.view(reach_mm, steps);
-    const IcpPartner<float> partner = icpPartner(view, read, true, at);
+    const IcpPartner<float> partner = icpPartner(view, wall, true, at);
     const std::optional<double> expected = bruteForce(wall, point, reach_mm, steps);
     const bool has = partner.squared_mm2 < view.reach_mm * view.reach_mm;
     ASSERT_EQ(has, expected.has_value()) << "trial " << trial;
@@ -122,7 +122,7 @@ TEST_P(IcpPointsTest, PartnersAreTheNearestOfTheGrid) {
     if (!has) continue;
     // An early end may leave a point that is nearer by the slant of a ray.
     EXPECT_NEAR(std::sqrt(partner.squared_mm2), std::sqrt(*expected), 0.05) << "trial " << trial;
-    EXPECT_FALSE(icpPartner(view, read, false, at).squared_mm2 < view.reach_mm * view.reach_mm);
+    EXPECT_FALSE(icpPartner(view, wall, false, at).squared_mm2 < view.reach_mm * view.reach_mm);
   }
   EXPECT_GT(found, 300);
   EXPECT_GT(none, 300);
@@ -157,18 +157,14 @@ struct EightPoints {
 
 TEST_P(IcpPointsTest, EightPartnersAreThoseOfEachPoint) {
   const Wall wall(GetParam());
-  const auto one = [&](bool where, int u, int v) { return wall.one(where, u, v); };
-  const auto eight = [&](const Int8& where, const Int8& u, const Int8& v) {
-    return wall.eight(where, u, v);
-  };
   Random random(6);
   for (int trial = 0; trial < 300; ++trial) {
     const IcpView view = wall.view(random.uniform(2.0, 25.0), 1 + random.index(2));
     const EightPoints points(wall, random);
-    const IcpPartner<Float8> all = icpPartner(view, eight, points.wanted, points.at);
+    const IcpPartner<Float8> all = icpPartner(view, wall, points.wanted, points.at);
     for (int i = 0; i < kLanes; ++i) {
       const Lane3<float> at = EightPoints::lane(points.at, i);
-      const IcpPartner<float> own = icpPartner(view, one, points.wanted[i] != 0, at);
+      const IcpPartner<float> own = icpPartner(view, wall, points.wanted[i] != 0, at);
       ASSERT_EQ(own.squared_mm2, all.squared_mm2[i]) << "trial " << trial << ", lane " << i;
       if (!(own.squared_mm2 < view.reach_mm * view.reach_mm)) continue;
       EXPECT_EQ(own.point_mm.x, all.point_mm.x[i]);
@@ -180,10 +176,6 @@ TEST_P(IcpPointsTest, EightPartnersAreThoseOfEachPoint) {
 
 TEST_P(IcpPointsTest, EightRimsAreThoseOfEachPoint) {
   const Wall wall(GetParam());
-  const auto one = [&](bool where, int u, int v) { return wall.one(where, u, v); };
-  const auto eight = [&](const Int8& where, const Int8& u, const Int8& v) {
-    return wall.eight(where, u, v);
-  };
   Random random(7);
   int found = 0;
   for (int trial = 0; trial < 400; ++trial) {
@@ -191,10 +183,10 @@ TEST_P(IcpPointsTest, EightRimsAreThoseOfEachPoint) {
     const EightPoints points(wall, random);
     const Lane3<Float8>& out = points.direction;
     const Float8 across = squareRoot(out.x * out.x + out.y * out.y);
-    const RimPartner<Float8> all = rimPartner(view, eight, points.wanted, points.at, out, across);
+    const RimPartner<Float8> all = rimPartner(view, wall, points.wanted, points.at, out, across);
     for (int i = 0; i < kLanes; ++i) {
       const RimPartner<float> own = rimPartner(view,
-                                               one,
+                                               wall,
                                                points.wanted[i] != 0,
                                                EightPoints::lane(points.at, i),
                                                EightPoints::lane(out, i),
