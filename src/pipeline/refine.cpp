@@ -50,6 +50,7 @@ struct CoarseRound {
   double last_tolerances;  ///< reach of the last iteration, in tolerances
   double rim_reach;        ///< share of the diameter
   int rim_steps;
+  double judged;  ///< what is explained is judged with that share of the tolerance
 };
 
 /// Of the candidates' own views.
@@ -97,10 +98,10 @@ void alignWithViews(std::vector<Candidate>& candidates,
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     candidates[i].pose = aligned[i].camera_from_object;
-    tasks.push_back({points[i],
-                     candidates[i].pose,
-                     visibleArea(object, candidates[i].view),
-                     checkOptionsFor(object, scene.noise_mm)});
+    CheckOptions options = checkOptionsFor(object, scene.noise_mm);
+    options.tolerance_mm *= round.judged;
+    tasks.push_back(
+        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options});
   }
   setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
 }
@@ -119,9 +120,9 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count) {
   // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6};
-  constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6};
-  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16};
+  constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
+  constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6, 0.7};
+  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
   constexpr int kPoints = 220;
   constexpr int kPerMany = 2;  // of all
   constexpr int kFewPerKept = 4;
