@@ -65,18 +65,25 @@ std::vector<Candidate> turnedCopies(const Candidate& candidate,
                                     const ReferenceObject& object) {
   if (pixels.empty()) return {};
   constexpr std::array<int, 3> kSteps{8, 4, 4};  // of a full turn
-  const Frame frame = principalFrame(pixels, depth);
   std::vector<Candidate> copies;
+  const auto addTurned = [&](const glm::dvec3& axis, const glm::dvec3& center_mm, double angle) {
+    const glm::dmat3 turn = rotationFromVector(angle * axis);
+    Candidate& copy = copies.emplace_back(candidate);
+    copy.pose.rotation = turn * candidate.pose.rotation;
+    copy.pose.translation_mm = center_mm + turn * (candidate.pose.translation_mm - center_mm);
+    copy.view = viewFrom(object, copy.pose, depth.camera);
+  };
+  const AreaMoments own = areaMoments(object.mesh);
+  for (int axis = 0; axis < 3; ++axis) {
+    addTurned(candidate.pose.rotation * own.axes[axis],
+              candidate.pose * own.centroid_mm,
+              std::numbers::pi);
+  }
+  const Frame frame = principalFrame(pixels, depth);
   for (int axis = 0; axis < 3; ++axis) {
     const int steps = kSteps[static_cast<std::size_t>(axis)];
     for (int step = 1; step < steps; ++step) {
-      const double angle = 2.0 * std::numbers::pi * step / steps;
-      const glm::dmat3 turn = rotationFromVector(angle * frame.axes[axis]);
-      Candidate& copy = copies.emplace_back(candidate);
-      copy.pose.rotation = turn * candidate.pose.rotation;
-      copy.pose.translation_mm =
-          frame.center_mm + turn * (candidate.pose.translation_mm - frame.center_mm);
-      copy.view = viewFrom(object, copy.pose, depth.camera);
+      addTurned(frame.axes[axis], frame.center_mm, 2.0 * std::numbers::pi * step / steps);
     }
   }
   return copies;
