@@ -1,11 +1,13 @@
 // The pixels of a depth image that a posed part accounts for.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "stages/check_core.h"
 #include "stages/surface.h"
 
 namespace rangepose {
@@ -20,5 +22,25 @@ std::vector<std::int32_t> explainedPixels(const Image<SurfaceTexel>& surface,
                                           const SurfaceWindow& window,
                                           const DepthImage& depth,
                                           double same_mm);
+
+/// The surface of a posed part that lies near the data, by how near.
+class NearSurface {
+ public:
+  NearSurface() = default;
+  /// The window is one of the image, with step 1; the options are those of the part's check.
+  NearSurface(const Image<SurfaceTexel>& surface,
+              const SurfaceWindow& window,
+              const DepthImage& depth,
+              const CheckOptions& options);
+  /// What agrees with the data to within `close_mm`, and less and less of what is up to twice as
+  /// far from it, minus what the sensor saw through [mm^2].
+  double explainedMm2(double close_mm) const;
+
+ private:
+  static constexpr int kBins = 64;
+  double bin_mm_ = 0.0;              ///< width of a bin; the last ends at the tolerance
+  double seen_through_mm2_ = 0.0;    ///< as the camera sees it, as the bins
+  std::array<double, kBins> mm2_{};  ///< by distance along the model's normal
+};
 
 }  // namespace rangepose

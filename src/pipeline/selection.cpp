@@ -17,7 +17,7 @@ constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
 constexpr double kFaint = 0.02;       // confidence below which a pose is nobody's rival
 // Log odds for a mean visible area. Each of two poses for the same surface may look right by
 // itself; what decides between them is the surface that one explains and the other does not.
-constexpr double kFit = 100.0;
+constexpr double kFit = 500.0;
 constexpr double kWorthTurning = 0.1;  // confidence
 constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
 constexpr double kFound = 0.5;         // confidence from which on a part hides others
@@ -94,8 +94,7 @@ void Selection::judgeAmongOthers() {
     if (entry->candidate.confidence >= kFound) found.add(entry->pixels, entry->exit_mm);
   }
   for (Entry& entry : entries_) {
-    const ReferenceObject& object =
-        database_.objects[static_cast<std::size_t>(entry.candidate.object)];
+    const ReferenceObject& object = objectOf(entry);
     const double mean_mm2 = meanVisibleArea(object);
     if (entry.alone.check.explained_mm2 < kEnough * mean_mm2) continue;
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
@@ -109,22 +108,20 @@ void Selection::judgeAmongOthers() {
 
 void Selection::describe(Entry& entry) const {
   const Candidate& candidate = entry.candidate;
-  const ReferenceObject& object = database_.objects[static_cast<std::size_t>(candidate.object)];
+  const ReferenceObject& object = objectOf(entry);
   const int all = std::max(depth_.camera.width, depth_.camera.height);
   const SurfaceWindow window =
       windowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, all);
   const Image<SurfaceTexel> surface =
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
-  const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
+  const CheckOptions options = checkOptionsFor(object, noise_mm_);
+  const double same_mm = sameSurfaceMm(options.tolerance_mm);
   entry.pixels = explainedPixels(surface, window, depth_, same_mm);
   entry.box = boxAround(entry.pixels, depth_.camera.width);
   if (candidate.confidence >= kFound)
     entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
-  entry.buried = buriedPixels(surface, window, depth_, checkOptionsFor(object, noise_mm_));
-  const CheckResult& check = candidate.check;
-  if (!(check.explained > 0.0)) return;
-  entry.fit =
-      check.explained_mm2 * (1.0 - check.contradicted / check.explained) / meanVisibleArea(object);
+  entry.buried = buriedPixels(surface, window, depth_, options);
+  entry.near = NearSurface(surface, window, depth_, options);
 }
 
 std::size_t Selection::shared(const Entry& a, const Entry& b) {
@@ -141,7 +138,23 @@ std::size_t Selection::shared(const Entry& a, const Entry& b) {
   return count;
 }
 
-double Selection::preference(const Entry& entry) { return entry.candidate.rank + kFit * entry.fit; }
+double Selection::preference(const Entry& entry, double close_mm) const {
+  const double mean_mm2 = meanVisibleArea(objectOf(entry));
+  return entry.candidate.rank + kFit * entry.near.explainedMm2(close_mm) / mean_mm2;
+}
+
+double Selection::closeMm(const Entry& entry, const Rivals& rivals) const {
+  constexpr double kSigmas = 2.0;
+  constexpr double kAtRest = 0.005;  // of the diameter: what aligned poses are off, and more
+  double residual_mm = entry.candidate.check.residual_mm;
+  for (const Entry* rival : rivals)
+    residual_mm = std::min(residual_mm, rival->candidate.check.residual_mm);
+  // The mean of the absolute value of x from N(0, s^2) is 0.8 s.
+  const double sigma_mm = std::max(residual_mm / 0.8, noise_mm_);
+  const ReferenceObject& object = objectOf(entry);
+  return std::min(std::max(kSigmas * sigma_mm, kAtRest * object.diameter_mm),
+                  toleranceFor(object, noise_mm_));
+}
 
 std::vector<const Selection::Entry*> Selection::chosen() const {
   std::vector<const Entry*> entries;
@@ -155,8 +168,11 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   for (const Entry& entry : entries_) {
     if (!(entry.candidate.confidence >= min_confidence_) || !isFree(entry)) continue;
     const Entry* best = &entry;
-    for (const Entry* rival : rivalsOf(entry)) {
-      if (preference(*rival) > preference(*best) && isFree(*rival)) best = rival;
+    const Rivals rivals = rivalsOf(entry);
+    const double close_mm = closeMm(entry, rivals);
+    for (const Entry* rival : rivals) {
+      if (preference(*rival, close_mm) > preference(*best, close_mm) && isFree(*rival))
+        best = rival;
     }
     for (const std::int32_t at : best->pixels) taken[static_cast<std::size_t>(at)] = 1;
     entries.push_back(best);
@@ -164,8 +180,8 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   return entries;
 }
 
-std::vector<const Selection::Entry*> Selection::rivalsOf(const Entry& entry) const {
-  std::vector<const Entry*> rivals;
+Selection::Rivals Selection::rivalsOf(const Entry& entry) const {
+  Rivals rivals;
   for (const Entry& other : entries_) {
     if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
     const auto larger = std::max(entry.pixels.size(), other.pixels.size());
@@ -180,9 +196,10 @@ std::vector<Candidate> Selection::choose() const {
   for (const Entry* entry : chosen()) {
     const double odds = std::exp(entry->candidate.rank);
     double all = 1.0 + odds;
-    for (const Entry* rival : rivalsOf(*entry)) {
-      all += odds * std::exp(preference(*rival) - preference(*entry));
-    }
+    const Rivals rivals = rivalsOf(*entry);
+    const double close_mm = closeMm(*entry, rivals);
+    const double own = preference(*entry, close_mm);
+    for (const Entry* rival : rivals) all += odds * std::exp(preference(*rival, close_mm) - own);
     const double confidence = odds / all;
     if (!(confidence >= min_confidence_)) continue;
     candidates.push_back(entry->candidate);
@@ -201,9 +218,8 @@ std::vector<Candidate> Selection::turnedCopies() {
   for (Entry& entry : entries_) {
     if (entry.turned || entry.candidate.confidence < kWorthTurning) continue;
     entry.turned = true;
-    const auto object = static_cast<std::size_t>(entry.candidate.object);
-    for (Candidate& copy : rangepose::turnedCopies(
-             entry.candidate, entry.pixels, depth_, database_.objects[object])) {
+    for (Candidate& copy :
+         rangepose::turnedCopies(entry.candidate, entry.pixels, depth_, objectOf(entry))) {
       copy.window = window;
       copies.push_back(copy);
     }

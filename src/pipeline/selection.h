@@ -6,6 +6,7 @@
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "pipeline/explained_pixels.h"
 #include "pipeline/occlusion.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/refine.h"
@@ -46,9 +47,13 @@ class Selection {
     PixelBox box;                      ///< around them
     std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
     std::vector<BuriedPixel> buried;
-    double fit = 0.0;     ///< surface explained less surface contradicted [mean visible areas]
+    NearSurface near;
     bool turned = false;  ///< whether its turned copies were given away
   };
+  using Rivals = std::vector<const Entry*>;
+  const ReferenceObject& objectOf(const Entry& entry) const {
+    return database_.objects[static_cast<std::size_t>(entry.candidate.object)];
+  }
   const Entry* find(const Candidate& candidate) const;
   /// Fills in what follows from the candidate and the image.
   void describe(Entry& entry) const;
@@ -58,12 +63,15 @@ class Selection {
   void orderByRank();
   /// How many pixels both explain.
   static std::size_t shared(const Entry& a, const Entry& b);
-  /// Log odds among poses for the same surface.
-  static double preference(const Entry& entry);
+  /// Log odds among poses for the same surface; `close_mm` as of NearSurface.
+  double preference(const Entry& entry, double close_mm) const;
+  /// Model and data that close are as near as poses for the same surface come [mm]. What tells the
+  /// wrong way round from the right one may be smaller than the tolerance of the check.
+  double closeMm(const Entry& entry, const Rivals& rivals) const;
   /// Those that share no surface, in the order of the surest pose for it.
   std::vector<const Entry*> chosen() const;
   /// The other poses of the same object for the same surface.
-  std::vector<const Entry*> rivalsOf(const Entry& entry) const;
+  Rivals rivalsOf(const Entry& entry) const;
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
