@@ -241,12 +241,12 @@ class Estimator {
 
 PassEffort EstimateOptions::effort(int pass) const {
   // One pose must come from what three starts give, the paper's N_init. Several poses: first a
-  // quick look everywhere, then a closer one at what is left. There the alignment finds what half
-  // the simplexes' steps leave, each with half of a view's rows.
+  // quick look everywhere, then a closer one at what is left, each with half of a view's rows: the
+  // alignment finds what that leaves.
   const int most = search.simplex.max_iterations;
   const PassEffort one{3, most, 1, 256, 16, {2, 900, 3, 1e-4}};
-  constexpr PassEffort kQuick{40, 20, 2, 80, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{10, 20, 2, 256, 12, {1, 450, 3, 1e-3}};
+  constexpr PassEffort kQuick{40, 30, 2, 80, 4, {1, 450, 2, 1e-3}};
+  constexpr PassEffort kClose{10, 40, 2, 256, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
   result.iterations = std::min(result.iterations, most);
   result.row_step = std::max(result.row_step, search.error.row_step);

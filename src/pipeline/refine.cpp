@@ -125,7 +125,7 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
   constexpr int kPoints = 220;
   constexpr int kPerMany = 2;  // of all
-  constexpr int kFewPerKept = 4;
+  constexpr int kFewPerKept = 3;
   const auto pointsOf = [&](int max_points) {
     return pointsOfViews(candidates, database, scene.stages, max_points);
   };
@@ -233,7 +233,12 @@ void refineFinely(std::vector<Candidate>& candidates,
   refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
+  const std::vector<Candidate> before = candidates;
   refineAll(candidates, database, scene, {8, 900, 3.0, effort.still});
+  // Where little holds a pose, it may drift off.
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].rank < before[i].rank - 3.0) candidates[i] = before[i];
+  }
 }
 
 }  // namespace rangepose

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "stages/device.h"
+#include "stages/lanes.h"
 
 namespace rangepose {
 
@@ -10,7 +11,6 @@ namespace channels_detail {
 
 RP_HD float smaller(float a, float b) { return b < a ? b : a; }
 RP_HD float larger(float a, float b) { return a < b ? b : a; }
-RP_HD float magnitude(float a) { return a < 0.0f ? -a : a; }
 RP_HD void order(float& low, float& high) {
   const float least = smaller(low, high);
   high = larger(low, high);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "core/parallel.h"
 #include "stages/channels_core.h"
 #include "stages/edt_core.h"
+#include "stages/lanes.h"
 
 namespace rangepose::host {
 namespace {
@@ -45,6 +47,63 @@ Image<float> fromNine(const Image<float>& image, const Pixel& pixel) {
   return result;
 }
 
+constexpr int kLanes = 8;
+
+/// The fields of EdtTexel as images, of which eight pixels are read at once. Around them lies a
+/// frame, one pixel wide, without a site: it stands for everything outside of the image.
+struct EdtPlanes {
+  EdtPlanes(int width, int height)
+      : site_x(width + 2 + kLanes, height + 2, 0.0f),
+        site_y(site_x),
+        signed_sq(site_x),
+        found(site_x) {}
+  Image<float> site_x;
+  Image<float> site_y;
+  Image<float> signed_sq;
+  Image<float> found;
+};
+
+struct EdtEight {
+  Float8 site_x;
+  Float8 site_y;
+  Float8 signed_sq;
+  Float8 found;
+};
+
+/// Texels around eight of a row.
+struct EdtAround {
+  const EdtPlanes& planes;
+  int x;
+  int y;
+
+  RP_LANES EdtEight operator()(int dx, int dy) const {
+    const auto from = [&](const Image<float>& plane) {
+      return load8(plane.row(y + 1 + dy) + x + 1 + dx);
+    };
+    return {from(planes.site_x), from(planes.site_y), from(planes.signed_sq), from(planes.found)};
+  }
+};
+
+RP_ALWAYS_INLINE void store8(Image<float>& plane, int x, int y, const Float8& values) {
+  std::memcpy(plane.row(y + 1) + x + 1, &values, sizeof values);
+}
+
+RP_SIMD_CLONES void edtStepOfRow(const EdtPlanes& from, EdtPlanes& into, int y, int width) {
+  constexpr Float8 kColumns{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
+  const Float8 row = splat8(static_cast<float>(y));
+  int x = 0;
+  for (; x < width; x += kLanes) {
+    const EdtEight texels =
+        edtStepOf<EdtEight>(kColumns + static_cast<float>(x), row, EdtAround{from, x, y});
+    store8(into.site_x, x, y, texels.site_x);
+    store8(into.site_y, x, y, texels.site_y);
+    store8(into.signed_sq, x, y, texels.signed_sq);
+    store8(into.found, x, y, texels.found);
+  }
+  // The last eight may reach into the frame.
+  std::fill(into.found.row(y + 1) + width + 1, into.found.row(y + 1) + x + 1, 0.0f);
+}
+
 }  // namespace
 
 Image<float> median(const Image<float>& range) {
@@ -62,28 +121,31 @@ Image<EdtTexel> distanceTexels(const Image<float>& range_px,
                                int passes) {
   const int width = range_px.width();
   const int height = range_px.height();
-  // A frame of texels without a site stands for everything outside of the image.
-  Image<EdtTexel> current(width + 2, height + 2);
+  EdtPlanes current(width, height);
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
-      current.at(x + 1, y + 1) = edtInit(x, y, range_px.at(x, y), edges.at(x, y), passes);
+      const EdtTexel texel = edtInit(x, y, range_px.at(x, y), edges.at(x, y), passes);
+      current.site_x.at(x + 1, y + 1) = texel.site_x;
+      current.site_y.at(x + 1, y + 1) = texel.site_y;
+      current.signed_sq.at(x + 1, y + 1) = texel.signed_sq;
+      current.found.at(x + 1, y + 1) = texel.found;
     }
   }
-  Image<EdtTexel> next = current;
+  EdtPlanes next = current;
   for (int pass = 0; pass < passes; ++pass) {
     parallelFor(height, kRowsPerPiece, [&](int begin, int end) {
-      for (int y = begin; y < end; ++y) {
-        for (int x = 0; x < width; ++x) {
-          next.at(x + 1, y + 1) =
-              edtStep(x, y, [&](int nx, int ny) { return current.at(nx + 1, ny + 1); });
-        }
-      }
+      for (int y = begin; y < end; ++y) edtStepOfRow(current, next, y, width);
     });
     std::swap(current, next);
   }
   Image<EdtTexel> result(width, height);
   for (int y = 0; y < height; ++y) {
-    std::copy_n(current.row(y + 1) + 1, static_cast<std::size_t>(width), result.row(y));
+    for (int x = 0; x < width; ++x) {
+      result.at(x, y) = {current.site_x.at(x + 1, y + 1),
+                         current.site_y.at(x + 1, y + 1),
+                         current.signed_sq.at(x + 1, y + 1),
+                         current.found.at(x + 1, y + 1)};
+    }
   }
   return result;
 }
