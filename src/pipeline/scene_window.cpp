@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "stages/surface.h"
 
@@ -58,12 +57,27 @@ PixelBox windowRegion(const Camera& sensor,
                       const glm::dvec3& point_mm,
                       int width_px,
                       double pixel_mm) {
-  const double reach = 0.5 * std::numbers::sqrt2 * width_px * pixel_mm;
-  const SurfaceWindow window =
-      windowAround(sensor, point_mm, reach, std::max(sensor.width, sensor.height));
-  // Too near for a sphere of that size: read the whole image.
-  if (window.width == 0) return {0, 0, sensor.width, sensor.height};
-  return {window.x0, window.y0, window.x0 + window.width, window.y0 + window.height};
+  const PixelBox all{0, 0, sensor.width, sensor.height};
+  const OrthoCamera window = windowCamera(sensor, point_mm, width_px, pixel_mm);
+  const double range_px = (window.camera_from_ortho.inverse() * point_mm).z / pixel_mm;
+  glm::dvec2 low(std::numeric_limits<double>::max());
+  glm::dvec2 high(std::numeric_limits<double>::lowest());
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto side = [&](int bit) { return (corner >> bit) % 2 == 0 ? -0.5 : width_px - 0.5; };
+    const glm::dvec3 seen =
+        window.camera_from_ortho *
+        window.orthoFromPixel(side(0), side(1), range_px + side(2) - 0.5 * (width_px - 1));
+    // Too near for a box of that size: read the whole image.
+    if (!sensor.orthographic && !(seen.z > 1.0)) return all;
+    const glm::dvec2 pixel = sensor.project(seen);
+    low = glm::min(low, pixel);
+    high = glm::max(high, pixel);
+  }
+  const PixelBox box{static_cast<int>(std::floor(std::max(low.x, 0.0))),
+                     static_cast<int>(std::floor(std::max(low.y, 0.0))),
+                     static_cast<int>(std::ceil(std::min(high.x, sensor.width - 1.0))) + 1,
+                     static_cast<int>(std::ceil(std::min(high.y, sensor.height - 1.0))) + 1};
+  return box.x0 < box.x1 && box.y0 < box.y1 ? box : all;
 }
 
 Pose poseOf(const Hypothesis& hypothesis,

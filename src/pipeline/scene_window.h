@@ -23,7 +23,8 @@ OrthoCamera windowCamera(const Camera& sensor,
                          int width_px,
                          double pixel_mm);
 
-/// Sensor pixels that can fall into such a window.
+/// Sensor pixels that can fall into such a window, of a cube as deep as it is wide: what is farther
+/// off is no part of the object.
 PixelBox windowRegion(const Camera& sensor,
                       const glm::dvec3& point_mm,
                       int width_px,

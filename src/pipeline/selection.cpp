@@ -43,7 +43,10 @@ Selection::Selection(const DepthImage& depth,
       database_(database),
       noise_mm_(noise_mm),
       min_confidence_(min_confidence),
-      distances_(database.objects.begin(), database.objects.end()) {}
+      distances_(database.objects.begin(), database.objects.end()) {
+  for (const ReferenceObject& object : database.objects)
+    moments_.push_back(areaMoments(object.mesh));
+}
 
 const Selection::Entry* Selection::find(const Candidate& candidate) const {
   const PoseDistance& distance = distances_[static_cast<std::size_t>(candidate.object)];
@@ -219,7 +222,11 @@ std::vector<Candidate> Selection::turnedCopies() {
     if (entry.turned || entry.candidate.confidence < kWorthTurning) continue;
     entry.turned = true;
     for (Candidate& copy :
-         rangepose::turnedCopies(entry.candidate, entry.pixels, depth_, objectOf(entry))) {
+         rangepose::turnedCopies(entry.candidate,
+                                 entry.pixels,
+                                 depth_,
+                                 objectOf(entry),
+                                 moments_[static_cast<std::size_t>(entry.candidate.object)])) {
       copy.window = window;
       copies.push_back(copy);
     }

@@ -6,6 +6,7 @@
 
 #include "core/camera.h"
 #include "core/image.h"
+#include "geometry/surface_sample.h"
 #include "pipeline/explained_pixels.h"
 #include "pipeline/occlusion.h"
 #include "pipeline/pose_distance.h"
@@ -78,6 +79,7 @@ class Selection {
   double noise_mm_;
   double min_confidence_;
   std::vector<PoseDistance> distances_;  ///< by object
+  std::vector<AreaMoments> moments_;     ///< by object
   std::vector<Entry> entries_;           ///< surest first
 };
 

@@ -62,7 +62,8 @@ int viewFrom(const ReferenceObject& object, const Pose& pose, const Camera& came
 std::vector<Candidate> turnedCopies(const Candidate& candidate,
                                     const std::vector<std::int32_t>& pixels,
                                     const DepthImage& depth,
-                                    const ReferenceObject& object) {
+                                    const ReferenceObject& object,
+                                    const AreaMoments& own) {
   if (pixels.empty()) return {};
   constexpr std::array<int, 3> kSteps{8, 4, 4};  // of a full turn
   std::vector<Candidate> copies;
@@ -73,7 +74,6 @@ std::vector<Candidate> turnedCopies(const Candidate& candidate,
     copy.pose.translation_mm = center_mm + turn * (candidate.pose.translation_mm - center_mm);
     copy.view = viewFrom(object, copy.pose, depth.camera);
   };
-  const AreaMoments own = areaMoments(object.mesh);
   for (int axis = 0; axis < 3; ++axis) {
     addTurned(candidate.pose.rotation * own.axes[axis],
               candidate.pose * own.centroid_mm,

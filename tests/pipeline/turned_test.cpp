@@ -32,7 +32,9 @@ struct BarScene {
     pixels = explainedPixels(
         host::renderSurface(object.mesh, image.camera, candidate.pose, window), window, image, 1.0);
   }
-  std::vector<Candidate> copies() const { return turnedCopies(candidate, pixels, image, object); }
+  std::vector<Candidate> copies() const {
+    return turnedCopies(candidate, pixels, image, object, areaMoments(object.mesh));
+  }
   glm::dvec3 axis() const { return candidate.pose.rotation[0]; }
 };
 
@@ -100,7 +102,9 @@ TEST(TurnedTest, EachHasTheViewThatLooksAtItAsTheCameraDoes) {
 
 TEST(TurnedTest, NothingExplainedNothingTurned) {
   const BarScene scene;
-  EXPECT_TRUE(turnedCopies(scene.candidate, {}, scene.image, scene.object).empty());
+  EXPECT_TRUE(
+      turnedCopies(scene.candidate, {}, scene.image, scene.object, areaMoments(scene.object.mesh))
+          .empty());
 }
 
 }  // namespace
