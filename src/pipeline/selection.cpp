@@ -127,18 +127,20 @@ void Selection::describe(Entry& entry) const {
   entry.near = NearSurface(surface, window, depth_, options);
 }
 
-std::size_t Selection::shared(const Entry& a, const Entry& b) {
-  if (a.box.x0 >= b.box.x1 || b.box.x0 >= a.box.x1 || a.box.y0 >= b.box.y1 ||
-      b.box.y0 >= a.box.y1) {
-    return 0;
-  }
+bool Selection::shareMost(const Entry& a, const Entry& b) {
+  const double wanted = kRival * static_cast<double>(std::max(a.pixels.size(), b.pixels.size()));
+  const int width = std::min(a.box.x1, b.box.x1) - std::max(a.box.x0, b.box.x0);
+  const int height = std::min(a.box.y1, b.box.y1) - std::max(a.box.y0, b.box.y0);
+  const double most = static_cast<double>(std::min(a.pixels.size(), b.pixels.size()));
+  if (most < wanted || width <= 0 || height <= 0 || static_cast<double>(width) * height < wanted)
+    return false;
   std::size_t count = 0;
   auto at = b.pixels.begin();
   for (const std::int32_t pixel : a.pixels) {
     while (at != b.pixels.end() && *at < pixel) ++at;
     if (at != b.pixels.end() && *at == pixel) ++count;
   }
-  return count;
+  return static_cast<double>(count) >= wanted;
 }
 
 double Selection::preference(const Entry& entry, double close_mm) const {
@@ -187,9 +189,7 @@ Selection::Rivals Selection::rivalsOf(const Entry& entry) const {
   Rivals rivals;
   for (const Entry& other : entries_) {
     if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
-    const auto larger = std::max(entry.pixels.size(), other.pixels.size());
-    if (static_cast<double>(shared(entry, other)) >= kRival * static_cast<double>(larger))
-      rivals.push_back(&other);
+    if (shareMost(entry, other)) rivals.push_back(&other);
   }
   return rivals;
 }

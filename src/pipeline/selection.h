@@ -62,8 +62,8 @@ class Selection {
   /// speak against it.
   void judgeAmongOthers();
   void orderByRank();
-  /// How many pixels both explain.
-  static std::size_t shared(const Entry& a, const Entry& b);
+  /// Whether they are for the same surface, by the pixels that both explain.
+  static bool shareMost(const Entry& a, const Entry& b);
   /// Log odds among poses for the same surface; `close_mm` as of NearSurface.
   double preference(const Entry& entry, double close_mm) const;
   /// Model and data that close are as near as poses for the same surface come [mm]. What tells the
