@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "pipeline/depth_noise.h"
+#include "pipeline/dropouts.h"
 #include "pipeline/input_warnings.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
@@ -274,33 +275,35 @@ const Hypothesis* lowestError(const ObjectTrace& trace) {
   return best == trace.hypotheses.end() ? nullptr : &*best;
 }
 
-Estimate estimatePoses(const DepthImage& depth,
+Estimate estimatePoses(const DepthImage& measured,
                        const std::optional<BinBox>& bin,
                        const ReferenceDatabase& database,
                        const EstimateOptions& options,
                        StageSet& stages,
                        EstimateTrace* trace) {
   options.check();
-  depth.camera.check();
+  measured.camera.check();
   RP_CHECK(!database.objects.empty(), "the database holds no object");
-  RP_CHECK(depth.depth_mm.width() == depth.camera.width &&
-               depth.depth_mm.height() == depth.camera.height,
+  RP_CHECK(measured.depth_mm.width() == measured.camera.width &&
+               measured.depth_mm.height() == measured.camera.height,
            "depth image and camera differ in size");
   if (std::none_of(
-          depth.depth_mm.begin(), depth.depth_mm.end(), [](float mm) { return mm > 0.0f; })) {
+          measured.depth_mm.begin(), measured.depth_mm.end(), [](float mm) { return mm > 0.0f; })) {
     throw Error("the depth image has no measured pixel; check the file and its depth_scale");
   }
   Estimate result;
-  result.warnings = unitWarnings(depth, database);
+  result.warnings = unitWarnings(measured, database);
   if (bin) {
-    const std::vector<std::string> of_bin = binWarnings(depth, *bin, database);
+    const std::vector<std::string> of_bin = binWarnings(measured, *bin, database);
     result.warnings.insert(result.warnings.end(), of_bin.begin(), of_bin.end());
   }
+  DepthImage depth;
   Image<std::uint8_t> foreground;
   {
     const ScopedTimer timer(result.times, "foreground");
-    const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-    result.noise_mm = estimateDepthNoise(depth, everything);
+    const Image<std::uint8_t> everything(measured.depth_mm.width(), measured.depth_mm.height(), 1);
+    result.noise_mm = estimateDepthNoise(measured, everything);
+    depth = fillDropouts(measured, result.noise_mm);
     const ForegroundOptions foreground_options = foregroundOptionsFor(database, result.noise_mm);
     result.background = findBackground(depth, foreground_options);
     foreground = foregroundMask(depth, result.background, bin, foreground_options);
