@@ -5,6 +5,7 @@
 
 #include "core/parallel.h"
 #include "pipeline/depth_noise.h"
+#include "pipeline/dropouts.h"
 #include "pipeline/foreground.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/selection.h"
@@ -66,12 +67,13 @@ PpfEstimator::PpfEstimator(const ReferenceDatabase& database, const PpfEstimateO
   }
 }
 
-std::vector<Candidate> PpfEstimator::estimate(const DepthImage& depth,
+std::vector<Candidate> PpfEstimator::estimate(const DepthImage& measured,
                                               const std::optional<BinBox>& bin) {
   constexpr int kNormalReach = 3;
   constexpr double kIcpSpacing = 0.012;  // [share of the diameter]
-  const Image<std::uint8_t> everything(depth.depth_mm.width(), depth.depth_mm.height(), 1);
-  const double noise_mm = estimateDepthNoise(depth, everything);
+  const Image<std::uint8_t> everything(measured.depth_mm.width(), measured.depth_mm.height(), 1);
+  const double noise_mm = estimateDepthNoise(measured, everything);
+  const DepthImage depth = fillDropouts(measured, noise_mm);
   const ForegroundOptions background = foregroundOptionsFor(database_, noise_mm);
   const std::vector<BackgroundPlane> planes = findBackground(depth, background);
   const Image<std::uint8_t> foreground = foregroundMask(depth, planes, bin, background);
