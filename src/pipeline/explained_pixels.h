@@ -12,6 +12,25 @@
 
 namespace rangepose {
 
+/// Calls `pixel(texel, seen_mm, index)` for each pixel of a rendered surface that was measured, row
+/// by row; the index is that of the depth image. The window is one of the image, with step 1.
+template <typename Pixel>
+void forEachMeasured(const Image<SurfaceTexel>& surface,
+                     const SurfaceWindow& window,
+                     const DepthImage& depth,
+                     const Pixel& pixel) {
+  for (int y = 0; y < surface.height(); ++y) {
+    for (int x = 0; x < surface.width(); ++x) {
+      const SurfaceTexel& texel = surface.at(x, y);
+      const float seen = depth.depth_mm.at(window.x0 + x, window.y0 + y);
+      if (!(texel.w > 0.0f && seen > 0.0f)) continue;
+      pixel(texel,
+            static_cast<double>(seen),
+            static_cast<std::int32_t>((window.y0 + y) * depth.camera.width + window.x0 + x));
+    }
+  }
+}
+
 /// Surfaces of a part and of the data closer than this [mm] are the same, where `tolerance_mm` is
 /// that of the part's check: twice, for what a pose is off leaves no rim of a found part to others.
 double sameSurfaceMm(double tolerance_mm);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "geometry/triangle_corners.h"
+#include "pipeline/explained_pixels.h"
 
 namespace rangepose {
 
@@ -11,15 +12,11 @@ std::vector<BuriedPixel> buriedPixels(const Image<SurfaceTexel>& surface,
                                       const DepthImage& depth,
                                       const CheckOptions& options) {
   std::vector<BuriedPixel> pixels;
-  for (int y = 0; y < surface.height(); ++y) {
-    for (int x = 0; x < surface.width(); ++x) {
-      const SurfaceTexel& texel = surface.at(x, y);
-      const float seen = depth.depth_mm.at(window.x0 + x, window.y0 + y);
-      if (!(texel.w > 0.0f && seen > 0.0f && seen < texel.w)) continue;
-      if (gapKind(texel, static_cast<double>(seen), options) != GapKind::kBuried) continue;
-      pixels.push_back({(window.y0 + y) * depth.camera.width + window.x0 + x, texel.w});
-    }
-  }
+  forEachMeasured(
+      surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
+        if (!(seen_mm < static_cast<double>(texel.w))) return;
+        if (gapKind(texel, seen_mm, options) == GapKind::kBuried) pixels.push_back({at, texel.w});
+      });
   return pixels;
 }
 

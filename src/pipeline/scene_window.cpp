@@ -59,14 +59,13 @@ PixelBox windowRegion(const Camera& sensor,
                       double pixel_mm) {
   const PixelBox all{0, 0, sensor.width, sensor.height};
   const OrthoCamera window = windowCamera(sensor, point_mm, width_px, pixel_mm);
-  const double range_px = (window.camera_from_ortho.inverse() * point_mm).z / pixel_mm;
+  const double half_mm = 0.5 * width_px * pixel_mm;
   glm::dvec2 low(std::numeric_limits<double>::max());
   glm::dvec2 high(std::numeric_limits<double>::lowest());
   for (int corner = 0; corner < 8; ++corner) {
-    const auto side = [&](int bit) { return (corner >> bit) % 2 == 0 ? -0.5 : width_px - 0.5; };
-    const glm::dvec3 seen =
-        window.camera_from_ortho *
-        window.orthoFromPixel(side(0), side(1), range_px + side(2) - 0.5 * (width_px - 1));
+    const auto side_mm = [&](int bit) { return (corner >> bit) % 2 == 0 ? -half_mm : half_mm; };
+    const glm::dvec3 seen = point_mm + window.camera_from_ortho.rotation *
+                                           glm::dvec3(side_mm(0), side_mm(1), side_mm(2));
     // Too near for a box of that size: read the whole image.
     if (!sensor.orthographic && !(seen.z > 1.0)) return all;
     const glm::dvec2 pixel = sensor.project(seen);

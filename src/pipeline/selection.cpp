@@ -148,12 +148,9 @@ double Selection::preference(const Entry& entry, double close_mm) const {
   return entry.candidate.rank + kFit * entry.near.explainedMm2(close_mm) / mean_mm2;
 }
 
-double Selection::closeMm(const Entry& entry, const Rivals& rivals) const {
+double Selection::closeMm(const Entry& entry, double residual_mm) const {
   constexpr double kSigmas = 2.0;
   constexpr double kAtRest = 0.005;  // of the diameter: what aligned poses are off, and more
-  double residual_mm = entry.candidate.check.residual_mm;
-  for (const Entry* rival : rivals)
-    residual_mm = std::min(residual_mm, rival->candidate.check.residual_mm);
   // The mean of the absolute value of x from N(0, s^2) is 0.8 s.
   const double sigma_mm = std::max(residual_mm / 0.8, noise_mm_);
   const ReferenceObject& object = objectOf(entry);
@@ -172,12 +169,14 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   };
   for (const Entry& entry : entries_) {
     if (!(entry.candidate.confidence >= min_confidence_) || !isFree(entry)) continue;
-    const Entry* best = &entry;
     const Rivals rivals = rivalsOf(entry);
-    const double close_mm = closeMm(entry, rivals);
-    for (const Entry* rival : rivals) {
-      if (preference(*rival, close_mm) > preference(*best, close_mm) && isFree(*rival))
-        best = rival;
+    const Entry* best = &entry;
+    double most = preference(entry, rivals.close_mm);
+    for (const Entry* rival : rivals.entries) {
+      const double its = preference(*rival, rivals.close_mm);
+      if (!(its > most) || !isFree(*rival)) continue;
+      best = rival;
+      most = its;
     }
     for (const std::int32_t at : best->pixels) taken[static_cast<std::size_t>(at)] = 1;
     entries.push_back(best);
@@ -186,12 +185,15 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
 }
 
 Selection::Rivals Selection::rivalsOf(const Entry& entry) const {
-  Rivals rivals;
+  std::vector<const Entry*> rivals;
+  double residual_mm = entry.candidate.check.residual_mm;
   for (const Entry& other : entries_) {
     if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
-    if (shareMost(entry, other)) rivals.push_back(&other);
+    if (!shareMost(entry, other)) continue;
+    rivals.push_back(&other);
+    residual_mm = std::min(residual_mm, other.candidate.check.residual_mm);
   }
-  return rivals;
+  return {rivals, closeMm(entry, residual_mm)};
 }
 
 std::vector<Candidate> Selection::choose() const {
@@ -200,9 +202,9 @@ std::vector<Candidate> Selection::choose() const {
     const double odds = std::exp(entry->candidate.rank);
     double all = 1.0 + odds;
     const Rivals rivals = rivalsOf(*entry);
-    const double close_mm = closeMm(*entry, rivals);
-    const double own = preference(*entry, close_mm);
-    for (const Entry* rival : rivals) all += odds * std::exp(preference(*rival, close_mm) - own);
+    const double own = preference(*entry, rivals.close_mm);
+    for (const Entry* rival : rivals.entries)
+      all += odds * std::exp(preference(*rival, rivals.close_mm) - own);
     const double confidence = odds / all;
     if (!(confidence >= min_confidence_)) continue;
     candidates.push_back(entry->candidate);

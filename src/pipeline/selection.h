@@ -51,7 +51,13 @@ class Selection {
     NearSurface near;
     bool turned = false;  ///< whether its turned copies were given away
   };
-  using Rivals = std::vector<const Entry*>;
+  /// Other poses of the same object for the same surface.
+  struct Rivals {
+    std::vector<const Entry*> entries;
+    /// Model and data that close are as near as any of the poses comes [mm]. What tells the wrong
+    /// way round from the right one may be smaller than the tolerance of the check.
+    double close_mm;
+  };
   const ReferenceObject& objectOf(const Entry& entry) const {
     return database_.objects[static_cast<std::size_t>(entry.candidate.object)];
   }
@@ -66,12 +72,10 @@ class Selection {
   static bool shareMost(const Entry& a, const Entry& b);
   /// Log odds among poses for the same surface; `close_mm` as of NearSurface.
   double preference(const Entry& entry, double close_mm) const;
-  /// Model and data that close are as near as poses for the same surface come [mm]. What tells the
-  /// wrong way round from the right one may be smaller than the tolerance of the check.
-  double closeMm(const Entry& entry, const Rivals& rivals) const;
+  /// What `close_mm` follows from: the smallest residual of an entry and its rivals [mm].
+  double closeMm(const Entry& entry, double residual_mm) const;
   /// Those that share no surface, in the order of the surest pose for it.
   std::vector<const Entry*> chosen() const;
-  /// The other poses of the same object for the same surface.
   Rivals rivalsOf(const Entry& entry) const;
 
   const DepthImage& depth_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "core/parallel.h"
 #include "stages/channels_core.h"
@@ -47,8 +46,6 @@ Image<float> fromNine(const Image<float>& image, const Pixel& pixel) {
   return result;
 }
 
-constexpr int kLanes = 8;
-
 /// The fields of EdtTexel as images, of which eight pixels are read at once. Around them lies a
 /// frame, one pixel wide, without a site: it stands for everything outside of the image.
 struct EdtPlanes {
@@ -84,10 +81,6 @@ struct EdtAround {
   }
 };
 
-RP_ALWAYS_INLINE void store8(Image<float>& plane, int x, int y, const Float8& values) {
-  std::memcpy(plane.row(y + 1) + x + 1, &values, sizeof values);
-}
-
 RP_SIMD_CLONES void edtStepOfRow(const EdtPlanes& from, EdtPlanes& into, int y, int width) {
   constexpr Float8 kColumns{0.0f, 1.0f, 2.0f, 3.0f, 4.0f, 5.0f, 6.0f, 7.0f};
   const Float8 row = splat8(static_cast<float>(y));
@@ -95,10 +88,10 @@ RP_SIMD_CLONES void edtStepOfRow(const EdtPlanes& from, EdtPlanes& into, int y, 
   for (; x < width; x += kLanes) {
     const EdtEight texels =
         edtStepOf<EdtEight>(kColumns + static_cast<float>(x), row, EdtAround{from, x, y});
-    store8(into.site_x, x, y, texels.site_x);
-    store8(into.site_y, x, y, texels.site_y);
-    store8(into.signed_sq, x, y, texels.signed_sq);
-    store8(into.found, x, y, texels.found);
+    store8(into.site_x.row(y + 1) + x + 1, texels.site_x);
+    store8(into.site_y.row(y + 1) + x + 1, texels.site_y);
+    store8(into.signed_sq.row(y + 1) + x + 1, texels.signed_sq);
+    store8(into.found.row(y + 1) + x + 1, texels.found);
   }
   // The last eight may reach into the frame.
   std::fill(into.found.row(y + 1) + width + 1, into.found.row(y + 1) + x + 1, 0.0f);

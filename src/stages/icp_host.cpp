@@ -27,8 +27,6 @@ double icpShrink(const IcpOptions& options) {
 namespace host {
 namespace {
 
-constexpr int kLanes = 8;
-
 /// Points of one kind, eight at a time, as plain numbers: what alignment a vector has depends on
 /// the processor that code is compiled for.
 struct Eight {

@@ -14,11 +14,16 @@ namespace rangepose {
 /// GCC and Clang turn this into one AVX register or two SSE or NEON ones; the arithmetic, and with
 /// it every result, is the same.
 using Float8 = float __attribute__((vector_size(32)));
+inline constexpr int kLanes = 8;
 
 RP_ALWAYS_INLINE Float8 load8(const float* from) {
   Float8 value;
   std::memcpy(&value, from, sizeof value);
   return value;
+}
+
+RP_ALWAYS_INLINE void store8(float* to, const Float8& value) {
+  std::memcpy(to, &value, sizeof value);
 }
 
 RP_ALWAYS_INLINE Float8 splat8(float value) { return Float8{} + value; }

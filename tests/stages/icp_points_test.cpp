@@ -17,7 +17,6 @@ namespace {
 
 using test::Random;
 
-constexpr int kLanes = 8;
 
 /// A bumpy wall with holes and nearer pieces.
 struct Wall {
