@@ -70,6 +70,7 @@ __global__ __launch_bounds__(kSurfaceThreads, 1) void judgeSurfacesKernel(
   judgeRendered(block,
                 surface,
                 task.window,
+                task.sphere,
                 task.options,
                 depth.camera,
                 DepthAt{depth.depth_mm, depth.camera.width},

@@ -40,6 +40,7 @@ void judgePoints(const ResidentImage& depth,
 struct SurfaceTask {
   ImageView surface;  ///< window.width x window.height from (column, row) on
   SurfaceWindow window;
+  Sphere sphere;  ///< around the object, in the camera frame
   CheckOptions options;
   int column = 0;  ///< of the window's first pixel in the image [px]
   int row = 0;     ///< [px]

@@ -133,7 +133,8 @@ std::vector<CheckResult> Refiner::judgeSurfaces(const CudaDepth& depth,
   std::vector<SurfaceTask> own;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const PixelBox box = grid.box(i, tasks[i].window);
-    own.push_back({frame.view(image), tasks[i].window, tasks[i].check, box.x0, box.y0});
+    own.push_back(
+        {frame.view(image), tasks[i].window, tasks[i].sphere(), tasks[i].check, box.x0, box.y0});
   }
   surface_tasks_.reserve(own.size());
   surface_tasks_.upload(own.data(), own.size(), stream);

@@ -40,11 +40,13 @@ RP_BODY void judgeTaskPoints(Block& block,
   });
 }
 
-/// `surface(x, y)` reads a texel of the rendered surface, inside of its window.
+/// `surface(x, y)` reads a texel of the rendered surface, inside of its window; `sphere` is that
+/// around the object, in the camera frame.
 template <typename Block, typename Surface, typename Read>
 RP_BODY void judgeRendered(Block& block,
                            const Surface& surface,
                            const SurfaceWindow& window,
+                           const Sphere& sphere,
                            const CheckOptions& options,
                            const Camera& camera,
                            const Read& read,
@@ -55,18 +57,20 @@ RP_BODY void judgeRendered(Block& block,
     const bool inside = x >= 0 && y >= 0 && x < window.width && y < window.height;
     return inside ? surface(x, y).w : 0.0f;
   };
-  typename Block::template PerThread<CheckTally> tallies;
+  const RenderedSurface<decltype(depth_at), Read> rendered{
+      depth_at, window, measured, sphere, rules};
+  typename Block::template PerThread<SurfaceTally> tallies;
   block.forEachThread([&](int thread) {
-    CheckTally tally;
+    SurfaceTally tally;
     for (int i = thread; i < window.width * window.height; i += Block::kThreads) {
       const int x = i % window.width;
       const int y = i / window.width;
-      judgeSurfacePixel(surface(x, y), depth_at, window, measured, x, y, rules, tally);
+      rendered.judge(surface(x, y), x, y, tally);
     }
     tallies[thread] = tally;
   });
   block.template sum<double>(
-      tallies, [&](const CheckTally& tally) { answer = surfaceVerdict(tally, options); });
+      tallies, [&](const SurfaceTally& tally) { answer = surfaceVerdict(tally, options); });
 }
 
 }  // namespace rangepose::cuda

@@ -16,7 +16,8 @@ struct ReferenceDatabase {
   std::vector<ReferenceObject> objects;
 };
 
-/// Sets what follows from the mesh and the diameter alone: thickness and flat faces.
+/// Sets what follows from the mesh, its sphere and its diameter alone: thickness, flat faces and
+/// stability.
 void measureShape(ReferenceObject& object);
 
 /// An object with its scale and the orientations of its views, not rendered yet. Throws Error for a

@@ -33,6 +33,7 @@ void measureShape(ReferenceObject& object) {
   if (sheet_mm < kThinSheet * object.diameter_mm)
     object.thickness_mm = std::min(object.thickness_mm, sheet_mm);
   object.flat_face = largestExtent(faces);
+  object.stability = stabilityCovariance(object.mesh, {object.center_mm, object.radius_mm});
 }
 
 ReferenceObject describeObject(const Mesh& mesh,

@@ -103,9 +103,15 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
   candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
-void setConfidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
+void setConfidence(Candidate& candidate,
+                   const CheckResult& check,
+                   const ReferenceObject& object,
+                   double mean_visible_mm2) {
   candidate.check = check;
-  candidate.rank = logOddsOf(check, check.explained_mm2 / mean_visible_mm2, candidate.outside);
+  candidate.check.stability =
+      stability(check.covariance, object.stability, candidate.pose.rotation);
+  candidate.rank =
+      logOddsOf(candidate.check, check.explained_mm2 / mean_visible_mm2, candidate.outside);
   candidate.confidence = probabilityOf(candidate.rank);
 }
 

@@ -27,6 +27,9 @@ double meanVisibleArea(const ReferenceObject& object);
 /// is the better explanation: a part's face alone can be laid on many surfaces.
 void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visible_mm2);
 /// Sets check, rank and confidence of a pose that was rendered.
-void setConfidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2);
+void setConfidence(Candidate& candidate,
+                   const CheckResult& check,
+                   const ReferenceObject& object,
+                   double mean_visible_mm2);
 
 }  // namespace rangepose

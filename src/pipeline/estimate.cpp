@@ -115,14 +115,15 @@ class Estimator {
 
   /// Aligns and checks turned copies of poses on all of the foreground; none that is known already.
   std::vector<Candidate> alignTurned(std::vector<Candidate> copies, const Selection& known) {
-    constexpr int kVerified = 2;  // of the copies of a pose
+    constexpr int kVerified = 3;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
     const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
-    copies = refineCoarsely(std::move(copies), database_, scene, kVerified);
+    copies = refineTurned(copies, database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
-    effort.rounds = effort.finalists = 1;
+    effort.rounds = 1;
+    effort.finalists = 2;
     refineFinely(copies, database_, scene, effort);
     return copies;
   }
@@ -247,7 +248,7 @@ PassEffort EstimateOptions::effort(int pass) const {
   const int most = search.simplex.max_iterations;
   const PassEffort one{3, most, 1, 256, 16, {2, 900, 3, 1e-4}};
   constexpr PassEffort kQuick{40, 30, 2, 80, 4, {1, 450, 2, 1e-3}};
-  constexpr PassEffort kClose{10, 40, 2, 256, 12, {1, 450, 3, 1e-3}};
+  constexpr PassEffort kClose{20, 40, 2, 256, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
   result.iterations = std::min(result.iterations, most);
   result.row_step = std::max(result.row_step, search.error.row_step);

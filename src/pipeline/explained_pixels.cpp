@@ -19,32 +19,26 @@ std::vector<std::int32_t> explainedPixels(const Image<SurfaceTexel>& surface,
   return pixels;
 }
 
-NearSurface::NearSurface(const Image<SurfaceTexel>& surface,
-                         const SurfaceWindow& window,
-                         const DepthImage& depth,
-                         const CheckOptions& options)
-    : bin_mm_(options.tolerance_mm / kBins) {
-  forEachMeasured(surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, auto) {
-    const GapKind kind = gapKind(texel, seen_mm, options);
-    if (kind == GapKind::kHidden || kind == GapKind::kBuried) return;
-    const double width_mm = depth.camera.pixelSpacingMm(static_cast<double>(texel.w));
-    const double mm2 = width_mm * width_mm;
-    if (kind == GapKind::kContradicted) {
-      seen_through_mm2_ += mm2;
-      return;
-    }
-    const int bin = static_cast<int>(gapAlongNormal(texel, seen_mm) / bin_mm_);
-    mm2_[static_cast<std::size_t>(std::min(bin, kBins - 1))] += mm2;
-  });
+std::vector<NearPixel> nearPixels(const Image<SurfaceTexel>& surface,
+                                  const SurfaceWindow& window,
+                                  const DepthImage& depth,
+                                  const CheckOptions& options) {
+  std::vector<NearPixel> pixels;
+  forEachMeasured(
+      surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
+        const GapKind kind = gapKind(texel, seen_mm, options);
+        if (kind == GapKind::kHidden || kind == GapKind::kBuried) return;
+        const bool through = kind == GapKind::kContradicted;
+        pixels.push_back(
+            {at, through ? kSeenThrough : static_cast<float>(gapAlongNormal(texel, seen_mm))});
+      });
+  return pixels;
 }
 
-double NearSurface::explainedMm2(double close_mm) const {
-  double sum_mm2 = -seen_through_mm2_;
-  for (int i = 0; i < kBins; ++i) {
-    const double middle_mm = (i + 0.5) * bin_mm_;
-    sum_mm2 += std::clamp(2.0 - middle_mm / close_mm, 0.0, 1.0) * mm2_[static_cast<std::size_t>(i)];
-  }
-  return sum_mm2;
+// Fitted, as the weights of confidence.cpp, on pairs of a right and a wrong pose for one surface.
+double Votes::logOdds() const {
+  constexpr double kFew = 4.0;  // px that may err
+  return 2.5 * std::log((first + kFew) / (second + kFew));
 }
 
 }  // namespace rangepose

@@ -1,7 +1,8 @@
 // The pixels of a depth image that a posed part accounts for.
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -42,24 +43,64 @@ std::vector<std::int32_t> explainedPixels(const Image<SurfaceTexel>& surface,
                                           const DepthImage& depth,
                                           double same_mm);
 
-/// The surface of a posed part that lies near the data, by how near.
-class NearSurface {
- public:
-  NearSurface() = default;
-  /// The window is one of the image, with step 1; the options are those of the part's check.
-  NearSurface(const Image<SurfaceTexel>& surface,
-              const SurfaceWindow& window,
-              const DepthImage& depth,
-              const CheckOptions& options);
-  /// What agrees with the data to within `close_mm`, and less and less of what is up to twice as
-  /// far from it, minus what the sensor saw through [mm^2].
-  double explainedMm2(double close_mm) const;
-
- private:
-  static constexpr int kBins = 64;
-  double bin_mm_ = 0.0;              ///< width of a bin; the last ends at the tolerance
-  double seen_through_mm2_ = 0.0;    ///< as the camera sees it, as the bins
-  std::array<double, kBins> mm2_{};  ///< by distance along the model's normal
+/// A pixel of the depth image at which a posed part lies near the data or in front of it.
+struct NearPixel {
+  std::int32_t at;  ///< index, row by row
+  float gap_mm;     ///< along the part's normal; kSeenThrough where the sensor saw through the part
 };
+inline constexpr float kSeenThrough = -1.0f;
+
+/// Those of a rendered surface, by rising index. The window is one of the image, with step 1; the
+/// options are those of the part's check.
+std::vector<NearPixel> nearPixels(const Image<SurfaceTexel>& surface,
+                                  const SurfaceWindow& window,
+                                  const DepthImage& depth,
+                                  const CheckOptions& options);
+
+/// What pixels say about which of two poses of a part is right, where one of them must be.
+struct Votes {
+  double first = 0.0;   ///< for the first [px]
+  double second = 0.0;  ///< for the second [px]
+
+  /// Of the first. Neighbours err together, so that twice the votes are not twice as sure.
+  double logOdds() const;
+};
+
+/// Each pixel where one of two poses comes `close_mm` near to the data, or nearly, and the other
+/// does not has a vote, half of one where the other shows nothing: there the data may belong to
+/// something else. So does each one where the sensor saw through one of them alone. Pixels of which
+/// `counts(index)` is false have none.
+template <typename Counts>
+Votes votesBetween(const std::vector<NearPixel>& first,
+                   const std::vector<NearPixel>& second,
+                   double close_mm,
+                   const Counts& counts) {
+  constexpr double kOneAlone = 0.5;
+  constexpr double kApart = 0.5;
+  const auto closeness = [&](float gap_mm) {
+    return gap_mm < 0.0f ? 0.0 : std::clamp(2.0 - static_cast<double>(gap_mm) / close_mm, 0.0, 1.0);
+  };
+  Votes votes;
+  auto a = first.begin();
+  auto b = second.begin();
+  while (a != first.end() || b != second.end()) {
+    const bool in_a = a != first.end() && (b == second.end() || a->at <= b->at);
+    const bool in_b = b != second.end() && (a == first.end() || b->at <= a->at);
+    const std::int32_t at = in_a ? a->at : b->at;
+    const float gap_a = in_a ? (a++)->gap_mm : 0.0f;
+    const float gap_b = in_b ? (b++)->gap_mm : 0.0f;
+    if (!counts(at)) continue;
+    const bool through_a = gap_a == kSeenThrough;
+    const bool through_b = gap_b == kSeenThrough;
+    if (through_a || through_b) {
+      if (through_a != through_b) (through_b ? votes.first : votes.second) += 1.0;
+      continue;
+    }
+    const double more = (in_a ? closeness(gap_a) : 0.0) - (in_b ? closeness(gap_b) : 0.0);
+    if (std::abs(more) <= kApart) continue;
+    (more > 0.0 ? votes.first : votes.second) += in_a && in_b ? 1.0 : kOneAlone;
+  }
+  return votes;
+}
 
 }  // namespace rangepose

@@ -28,17 +28,18 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
-/// `set` as setVerdict or setConfidence.
+/// Calls `set(candidate, verdict, object, mean visible area)` for each.
+template <typename Set>
 void setVerdicts(std::vector<Candidate>& candidates,
                  const std::vector<CheckResult>& verdicts,
                  const ReferenceDatabase& database,
-                 void (*set)(Candidate&, const CheckResult&, double)) {
+                 const Set& set) {
   std::vector<double> mean_mm2;
   for (const ReferenceObject& object : database.objects)
     mean_mm2.push_back(meanVisibleArea(object));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto object = static_cast<std::size_t>(candidates[i].object);
-    set(candidates[i], verdicts[i], mean_mm2[object]);
+    set(candidates[i], verdicts[i], database.objects[object], mean_mm2[object]);
   }
 }
 
@@ -72,6 +73,28 @@ Points pointsOfViews(const std::vector<Candidate>& candidates,
   return points;
 }
 
+/// By points of the candidates' own views, with a share of the tolerance.
+void judgeWithViews(std::vector<Candidate>& candidates,
+                    const ReferenceDatabase& database,
+                    const RefineScene& scene,
+                    const Points& points,
+                    double judged) {
+  std::vector<JudgeTask> tasks;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const ReferenceObject& object = objectOf(candidates[i], database);
+    CheckOptions options = checkOptionsFor(object, scene.noise_mm);
+    options.tolerance_mm *= judged;
+    tasks.push_back(
+        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options});
+  }
+  setVerdicts(candidates,
+              scene.stages.judge(scene.resident, tasks),
+              database,
+              [](Candidate& candidate, const CheckResult& check, const auto&, double mean_mm2) {
+                setVerdict(candidate, check, mean_mm2);
+              });
+}
+
 void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
@@ -94,17 +117,16 @@ void alignWithViews(std::vector<Candidate>& candidates,
         {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
   }
   const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
-  std::vector<JudgeTask> tasks;
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const ReferenceObject& object = objectOf(candidates[i], database);
+  for (std::size_t i = 0; i < candidates.size(); ++i)
     candidates[i].pose = aligned[i].camera_from_object;
-    CheckOptions options = checkOptionsFor(object, scene.noise_mm);
-    options.tolerance_mm *= round.judged;
-    tasks.push_back(
-        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options});
-  }
-  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
+  judgeWithViews(candidates, database, scene, points, round.judged);
 }
+
+// A few steps with few points tell which of many hypotheses are worth more.
+constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
+constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6, 0.7};
+constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
+constexpr int kPoints = 220;  // of a view, in the last of them
 
 int mostOfAStart(const std::vector<Candidate>& candidates) {
   std::map<std::pair<int, int>, int> counts;
@@ -119,11 +141,6 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const ReferenceDatabase& database,
                                       const RefineScene& scene,
                                       int count) {
-  // A few steps with few points tell which of many hypotheses are worth more.
-  constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
-  constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6, 0.7};
-  constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
-  constexpr int kPoints = 220;
   constexpr int kPerMany = 2;  // of all
   constexpr int kFewPerKept = 3;
   const auto pointsOf = [&](int max_points) {
@@ -138,6 +155,24 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   });
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
   alignWithViews(candidates, database, scene, pointsOf(kPoints), kFew);
+  return bestDistinct(std::move(candidates), database, count);
+}
+
+std::vector<Candidate> refineTurned(const std::vector<Candidate>& copies,
+                                    const ReferenceDatabase& database,
+                                    const RefineScene& scene,
+                                    int count) {
+  std::vector<Candidate> candidates = copies;
+  judgeWithViews(candidates,
+                 database,
+                 scene,
+                 pointsOfViews(candidates, database, scene.stages, kPoints),
+                 kFew.judged);
+  const std::vector<Candidate> aligned = refineCoarsely(copies, database, scene, count);
+  candidates.insert(candidates.end(), aligned.begin(), aligned.end());
+  std::erase_if(candidates, [&](const Candidate& one) {
+    return !scene.enclosure.holds(one.object, one.pose, 0.0);
+  });
   return bestDistinct(std::move(candidates), database, count);
 }
 

@@ -52,6 +52,14 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
                                       const RefineScene& scene,
                                       int count);
 
+/// The same for turned copies of aligned poses: where a part is nearly the same again, a copy is
+/// right as it is, and what starts at a distance would lead it astray. So each is there as it was,
+/// too.
+std::vector<Candidate> refineTurned(const std::vector<Candidate>& copies,
+                                    const ReferenceDatabase& database,
+                                    const RefineScene& scene,
+                                    int count);
+
 /// The `count` best candidates of each start that differ from each other: a start on something else
 /// may have candidates that look better than those of the start on the part.
 std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,

@@ -12,12 +12,9 @@
 namespace rangepose {
 namespace {
 
-constexpr double kSame = 0.05;        // of the diameter
-constexpr double kMostShared = 0.25;  // of the pixels that a pose explains
-constexpr double kFaint = 0.02;       // confidence below which a pose is nobody's rival
-// Log odds for a mean visible area. Each of two poses for the same surface may look right by
-// itself; what decides between them is the surface that one explains and the other does not.
-constexpr double kFit = 500.0;
+constexpr double kSame = 0.05;         // of the diameter
+constexpr double kMostShared = 0.25;   // of the pixels that a pose explains
+constexpr double kFaint = 0.02;        // confidence below which a pose is nobody's rival
 constexpr double kWorthTurning = 0.1;  // confidence
 constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
 constexpr double kFound = 0.5;         // confidence from which on a part hides others
@@ -43,7 +40,8 @@ Selection::Selection(const DepthImage& depth,
       database_(database),
       noise_mm_(noise_mm),
       min_confidence_(min_confidence),
-      distances_(database.objects.begin(), database.objects.end()) {
+      distances_(database.objects.begin(), database.objects.end()),
+      owners_(depth.depth_mm.width(), depth.depth_mm.height(), kNobody) {
   for (const ReferenceObject& object : database.objects)
     moments_.push_back(areaMoments(object.mesh));
 }
@@ -65,6 +63,7 @@ void Selection::add(const std::vector<Candidate>& candidates) {
     if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
     Entry& entry = added.emplace_back();
     entry.candidate = entry.alone = candidate;
+    entry.id = added_++;
   }
   parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
@@ -93,8 +92,11 @@ void Selection::judgeAmongOthers() {
   for (Entry& entry : entries_) entry.candidate = entry.alone;
   orderByRank();
   FoundParts found(depth_.depth_mm.size());
+  std::fill(owners_.begin(), owners_.end(), kNobody);
   for (const Entry* entry : chosen()) {
-    if (entry->candidate.confidence >= kFound) found.add(entry->pixels, entry->exit_mm);
+    if (entry->candidate.confidence < kFound) continue;
+    found.add(entry->pixels, entry->exit_mm);
+    for (const std::int32_t at : entry->pixels) owners_.data()[at] = entry->id;
   }
   for (Entry& entry : entries_) {
     const ReferenceObject& object = objectOf(entry);
@@ -103,7 +105,7 @@ void Selection::judgeAmongOthers() {
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry.pixels, entry.buried, slack_mm);
     if (share > 0.0) {
-      setConfidence(entry.candidate, withCovered(entry.alone.check, share), mean_mm2);
+      setConfidence(entry.candidate, withCovered(entry.alone.check, share), object, mean_mm2);
     }
   }
   orderByRank();
@@ -124,7 +126,7 @@ void Selection::describe(Entry& entry) const {
   if (candidate.confidence >= kFound)
     entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
   entry.buried = buriedPixels(surface, window, depth_, options);
-  entry.near = NearSurface(surface, window, depth_, options);
+  entry.near = nearPixels(surface, window, depth_, options);
 }
 
 bool Selection::shareMost(const Entry& a, const Entry& b) {
@@ -143,9 +145,17 @@ bool Selection::shareMost(const Entry& a, const Entry& b) {
   return static_cast<double>(count) >= wanted;
 }
 
-double Selection::preference(const Entry& entry, double close_mm) const {
-  const double mean_mm2 = meanVisibleArea(objectOf(entry));
-  return entry.candidate.rank + kFit * entry.near.explainedMm2(close_mm) / mean_mm2;
+double Selection::preference(const Entry& rival, const Entry& entry, const Rivals& rivals) const {
+  // Each of them may look right by itself; what decides is what tells them apart. What belongs to
+  // another part says nothing about these.
+  const auto counts = [&](std::int32_t at) {
+    const std::int32_t owner = owners_.data()[at];
+    return owner == kNobody || owner == entry.id ||
+           std::any_of(rivals.entries.begin(), rivals.entries.end(), [&](const Entry* one) {
+             return one->id == owner;
+           });
+  };
+  return votesBetween(rival.near, entry.near, rivals.close_mm, counts).logOdds();
 }
 
 double Selection::closeMm(const Entry& entry, double residual_mm) const {
@@ -171,9 +181,9 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
     if (!(entry.candidate.confidence >= min_confidence_) || !isFree(entry)) continue;
     const Rivals rivals = rivalsOf(entry);
     const Entry* best = &entry;
-    double most = preference(entry, rivals.close_mm);
+    double most = 0.0;
     for (const Entry* rival : rivals.entries) {
-      const double its = preference(*rival, rivals.close_mm);
+      const double its = preference(*rival, entry, rivals);
       if (!(its > most) || !isFree(*rival)) continue;
       best = rival;
       most = its;
@@ -202,9 +212,8 @@ std::vector<Candidate> Selection::choose() const {
     const double odds = std::exp(entry->candidate.rank);
     double all = 1.0 + odds;
     const Rivals rivals = rivalsOf(*entry);
-    const double own = preference(*entry, rivals.close_mm);
     for (const Entry* rival : rivals.entries)
-      all += odds * std::exp(preference(*rival, rivals.close_mm) - own);
+      all += odds * std::exp(preference(*rival, *entry, rivals));
     const double confidence = odds / all;
     if (!(confidence >= min_confidence_)) continue;
     candidates.push_back(entry->candidate);

@@ -41,6 +41,7 @@ class Selection {
   void takeOut(Image<std::uint8_t>& mask) const;
 
  private:
+  static constexpr std::int32_t kNobody = -1;
   struct Entry {
     Candidate candidate;               ///< judged among the others
     Candidate alone;                   ///< as it was added
@@ -48,7 +49,8 @@ class Selection {
     PixelBox box;                      ///< around them
     std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
     std::vector<BuriedPixel> buried;
-    NearSurface near;
+    std::vector<NearPixel> near;
+    int id = 0;           ///< never the same twice
     bool turned = false;  ///< whether its turned copies were given away
   };
   /// Other poses of the same object for the same surface.
@@ -70,8 +72,8 @@ class Selection {
   void orderByRank();
   /// Whether they are for the same surface, by the pixels that both explain.
   static bool shareMost(const Entry& a, const Entry& b);
-  /// Log odds among poses for the same surface; `close_mm` as of NearSurface.
-  double preference(const Entry& entry, double close_mm) const;
+  /// Log odds of a rival against the entry.
+  double preference(const Entry& rival, const Entry& entry, const Rivals& rivals) const;
   /// What `close_mm` follows from: the smallest residual of an entry and its rivals [mm].
   double closeMm(const Entry& entry, double residual_mm) const;
   /// Those that share no surface, in the order of the surest pose for it.
@@ -85,6 +87,8 @@ class Selection {
   std::vector<PoseDistance> distances_;  ///< by object
   std::vector<AreaMoments> moments_;     ///< by object
   std::vector<Entry> entries_;           ///< surest first
+  int added_ = 0;                        ///< entries so far
+  Image<std::int32_t> owners_;           ///< by pixel: the entry found there, or kNobody
 };
 
 }  // namespace rangepose

@@ -7,6 +7,7 @@ namespace rangepose::host {
 CheckResult check(const Image<SurfaceTexel>& surface,
                   const SurfaceWindow& window,
                   const DepthImage& depth,
+                  const Sphere& sphere,
                   const CheckOptions& options) {
   const auto read = [&](int u, int v) { return depth.depth_mm.at(u, v); };
   const Measured<decltype(read)> measured{depth.camera, options.tolerance_mm, read};
@@ -14,10 +15,12 @@ CheckResult check(const Image<SurfaceTexel>& surface,
     return surface.contains(x, y) ? surface.at(x, y).w : 0.0f;
   };
   const CheckRules rules = checkRules(options, std::max(2, window.step));
-  CheckTally tally;
+  const RenderedSurface<decltype(surface_depth), decltype(read)> rendered{
+      surface_depth, window, measured, sphere, rules};
+  SurfaceTally tally;
   for (int y = 0; y < surface.height(); ++y) {
     for (int x = 0; x < surface.width(); ++x) {
-      judgeSurfacePixel(surface.at(x, y), surface_depth, window, measured, x, y, rules, tally);
+      rendered.judge(surface.at(x, y), x, y, tally);
     }
   }
   return surfaceVerdict(tally, options);

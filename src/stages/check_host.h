@@ -10,10 +10,12 @@ namespace rangepose {
 
 namespace host {
 
-/// `surface` was rendered with `window`; `depth` is the whole image as measured.
+/// `surface` was rendered with `window`; `depth` is the whole image as measured, `sphere` that
+/// around the object, in the camera frame.
 CheckResult check(const Image<SurfaceTexel>& surface,
                   const SurfaceWindow& window,
                   const DepthImage& depth,
+                  const Sphere& sphere,
                   const CheckOptions& options);
 
 /// The same for points of the surface, without the outline (outline = 0, its share is left out of

@@ -135,7 +135,7 @@ std::vector<CheckResult> StageSet::judgeSurfaces(const ResidentDepth& depth,
       tasks, renderGrain(*this, tasks.size()), [&](const RenderTask& task) {
         const Image<SurfaceTexel> surface =
             renderSurface(*task.mesh, own.depth.camera, task.camera_from_object, task.window);
-        return host::check(surface, task.window, own.depth, task.check);
+        return host::check(surface, task.window, own.depth, task.sphere(), task.check);
       });
 }
 

@@ -69,10 +69,12 @@ struct RenderTask {
   Pose camera_from_object;
   SurfaceWindow window;       ///< of the rendering; of the depth image's camera
   int max_points = 0;         ///< alignment: >= 1, as in pointsOfSurface and rimOfSurface
-  glm::dvec3 center_mm{0.0};  ///< alignment
-  double radius_mm = 0.0;     ///< alignment
+  glm::dvec3 center_mm{0.0};  ///< of the sphere around the object, in its frame
+  double radius_mm = 0.0;     ///< of that sphere
   IcpOptions alignment;
   CheckOptions check;
+  /// That sphere in the camera frame.
+  Sphere sphere() const { return {camera_from_object * center_mm, radius_mm}; }
 };
 
 /// A scene window to be prepared; see StageSet::prepare.

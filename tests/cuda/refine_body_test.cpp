@@ -127,6 +127,10 @@ void expectSame(const CheckResult& actual, const CheckResult& expected) {
   EXPECT_NEAR(actual.explained_mm2, expected.explained_mm2, test::kVerdict * 1.0e4);
   EXPECT_EQ(actual.pixels, expected.pixels);
   EXPECT_NEAR(actual.score, expected.score, test::kVerdict);
+  EXPECT_EQ(actual.jumps_met, expected.jumps_met);
+  EXPECT_EQ(actual.jumps_missed, expected.jumps_missed);
+  for (int i = 0; i < 21; ++i)
+    EXPECT_NEAR(actual.covariance.upper[i], expected.covariance.upper[i], test::kVerdict);
 }
 
 TEST_P(RefineBodyTest, VerdictOnPointsIsTheHosts) {
@@ -171,11 +175,12 @@ TEST_P(RefineBodyTest, VerdictOnSurfacesIsTheHosts) {
           block,
           [&](int x, int y) { return surface.at(x, y); },
           window,
+          scene.sphereAt(pose),
           CheckOptions{},
           camera,
           read,
           actual);
-      expectSame(actual, host::check(surface, window, scene.depth, {}));
+      expectSame(actual, host::check(surface, window, scene.depth, scene.sphereAt(pose), {}));
       outline += actual.outline;
     }
   }

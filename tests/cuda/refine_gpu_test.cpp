@@ -166,8 +166,8 @@ TEST_F(RefineGpuTest, VerdictsOnSurfacesAreTheHosts) {
       const Image<SurfaceTexel> surface =
           host::renderSurface(scene.object.mesh, camera, pose, window);
       surfaces.push_back(toDevice(surface));
-      tasks.push_back({surfaces.back().view(), window, {}});
-      expected.push_back(host::check(surface, window, scene.depth, {}));
+      tasks.push_back({surfaces.back().view(), window, scene.sphereAt(pose), {}});
+      expected.push_back(host::check(surface, window, scene.depth, scene.sphereAt(pose), {}));
     }
     ASSERT_GE(tasks.size(), 4U);
     const cuda::ResidentImage image = resident(scene.depth);

@@ -66,6 +66,9 @@ struct RefineScene {
     return seen;
   }
 
+  /// Around the object at a pose, in the camera frame.
+  Sphere sphereAt(const Pose& pose) const { return {pose * object.center_mm, object.radius_mm}; }
+
   cuda::IcpTask icpTask(const std::vector<SurfacePoint>& points, const IcpOptions& options) const {
     cuda::IcpTask task;
     task.point_count = static_cast<int>(points.size());

@@ -16,6 +16,8 @@ CheckResult sure() {
   check.contradicted = 0.01;
   check.outline = 0.95;
   check.flat = 0.6;
+  check.stability = 0.5;
+  check.jumps_met = 0.9;
   return check;
 }
 
@@ -37,6 +39,9 @@ TEST(ConfidenceTest, WhatSpeaksAgainstAPoseMakesItLessSure) {
   EXPECT_LT(oddsWith(&CheckResult::outline, 0.7), before) << "the data goes on";
   EXPECT_LT(oddsWith(&CheckResult::missing, 0.6), before) << "little of it was measured";
   EXPECT_LT(oddsWith(&CheckResult::hidden, 0.6), before) << "little of it is to be seen";
+  EXPECT_LT(oddsWith(&CheckResult::stability, 0.01), before) << "it fits wherever it slides to";
+  EXPECT_LT(oddsWith(&CheckResult::jumps_met, 0.1), before) << "its steps are not in the data";
+  EXPECT_LT(oddsWith(&CheckResult::jumps_missed, 0.5), before) << "the data is level there";
 }
 
 /// What it costs that a face is as flat as `flat`, where the data goes on beyond the part.

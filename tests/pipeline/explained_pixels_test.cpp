@@ -28,11 +28,7 @@ class ExplainedPixelsTest : public testing::Test {
     for (int x = 0; x < window_.width; ++x)
       image_.depth_mm.at(window_.x0 + x, window_.y0 + y) = 500.0f + off_mm;
   }
-  double explained(double close_mm) const {
-    return NearSurface(surface_, window_, image_, options_).explainedMm2(close_mm);
-  }
-  /// Of a row of the window.
-  static double rowMm2() { return 16.0 * 5.0 * 5.0; }
+  std::vector<NearPixel> near() const { return nearPixels(surface_, window_, image_, options_); }
 
   DepthImage image_;
   SurfaceWindow window_;
@@ -41,7 +37,7 @@ class ExplainedPixelsTest : public testing::Test {
 };
 
 TEST_F(ExplainedPixelsTest, NothingIsExplainedWhereNothingWasMeasured) {
-  EXPECT_EQ(explained(1.0), 0.0);
+  EXPECT_TRUE(near().empty());
   EXPECT_TRUE(explainedPixels(surface_, window_, image_, 2.0).empty());
 }
 
@@ -56,24 +52,53 @@ TEST_F(ExplainedPixelsTest, PixelsAreThoseOfTheImageWithinTheDistance) {
   EXPECT_TRUE(std::is_sorted(pixels.begin(), pixels.end()));
 }
 
-TEST_F(ExplainedPixelsTest, CloseSurfaceCountsInFullAndLessUpToTwiceAsFar) {
-  setRow(0, 0.2f);
-  EXPECT_NEAR(explained(0.5), rowMm2(), 1e-3);
-  setRow(0, -0.75f);
-  EXPECT_NEAR(explained(0.5), 0.5 * rowMm2(), 0.04 * rowMm2()) << "but for the width of a bin";
-  setRow(0, 1.1f);
-  EXPECT_NEAR(explained(0.5), 0.0, 1e-9);
-  EXPECT_NEAR(explained(1.2), rowMm2(), 1e-3);
+TEST_F(ExplainedPixelsTest, NearPixelsTellHowNearAndWhatWasSeenThrough) {
+  setRow(0, 0.75f);
+  setRow(1, 30.0f);
+  setRow(2, -3.0f);   // just behind the data
+  setRow(3, -30.0f);  // something lies on it
+  const std::vector<NearPixel> pixels = near();
+  ASSERT_EQ(pixels.size(), 32u);
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_NEAR(pixels[i].gap_mm, 0.75f, 1e-4f);
+    EXPECT_EQ(pixels[16 + i].gap_mm, kSeenThrough);
+  }
 }
 
-TEST_F(ExplainedPixelsTest, SurfaceInFrontOfTheDataCountsAgainstAndBehindItNotAtAll) {
-  setRow(0, 0.0f);
-  setRow(1, 30.0f);
-  EXPECT_NEAR(explained(0.5), 0.0, 1e-3);
-  setRow(1, -3.0f);
-  EXPECT_NEAR(explained(0.5), rowMm2(), 1e-3) << "just behind the data";
-  setRow(1, -30.0f);
-  EXPECT_NEAR(explained(0.5), rowMm2(), 1e-3) << "something lies on it";
+constexpr auto kAll = [](std::int32_t) { return true; };
+using Near = std::vector<NearPixel>;
+
+TEST(VotesTest, APixelVotesForThePoseThatIsCloserByFar) {
+  const Near close{{3, 0.1f}, {5, 0.2f}, {9, 0.1f}};
+  const Near far{{3, 1.5f}, {5, 0.3f}, {9, 0.7f}};
+  const Votes votes = votesBetween(close, far, 0.4, kAll);
+  EXPECT_EQ(votes.first, 2.0) << "pixel 5 is close to both";
+  EXPECT_EQ(votes.second, 0.0);
+  EXPECT_GT(votes.logOdds(), 0.0);
+  const Votes turned = votesBetween(far, close, 0.4, kAll);
+  EXPECT_EQ(turned.second, votes.first);
+  EXPECT_DOUBLE_EQ(turned.logOdds(), -votes.logOdds());
+}
+
+TEST(VotesTest, WhatOnlyOnePoseShowsCountsHalf) {
+  const Near more{{1, 0.0f}, {2, 0.0f}, {4, 1.0f}};
+  EXPECT_EQ(votesBetween(more, {{2, 0.0f}}, 0.4, kAll).first, 0.5) << "pixel 4 is close to neither";
+  EXPECT_EQ(votesBetween({}, more, 0.4, kAll).second, 1.0);
+}
+
+TEST(VotesTest, ThePoseThatTheSensorSawThroughLosesThePixel) {
+  const Near through{{1, kSeenThrough}, {2, kSeenThrough}, {3, 0.0f}};
+  const Near other{{2, kSeenThrough}, {3, 0.0f}};
+  const Votes votes = votesBetween(through, other, 0.4, kAll);
+  EXPECT_EQ(votes.first, 0.0);
+  EXPECT_EQ(votes.second, 1.0) << "both lose pixel 2";
+}
+
+TEST(VotesTest, PixelsOfOthersHaveNoVote) {
+  const Near more{{1, 0.0f}, {2, 0.0f}};
+  const auto odd = [](std::int32_t at) { return at % 2 == 1; };
+  EXPECT_EQ(votesBetween(more, {}, 0.4, odd).first, 0.5);
+  EXPECT_EQ(votesBetween({}, {}, 0.4, odd).logOdds(), 0.0) << "nothing to tell them apart by";
 }
 
 }  // namespace

@@ -73,8 +73,9 @@ class OcclusionTest : public testing::Test {
         host::check(host::renderSurface(of.mesh, image_.camera, pose_, task.window),
                     task.window,
                     image_,
+                    task.sphere(),
                     task.check);
-    setConfidence(candidate, check, meanVisibleArea(of));
+    setConfidence(candidate, check, of, meanVisibleArea(of));
     return candidate;
   }
 

@@ -138,7 +138,7 @@ TEST_F(TurnedBarTest, RivalsThatExplainAsMuchShareTheConfidence) {
   show(0.0);
   const std::vector<Candidate> poses = chosen();
   ASSERT_EQ(poses.size(), 1u) << "one part would be picked twice";
-  EXPECT_NEAR(poses[0].confidence, std::exp(2.2) / (1.0 + std::exp(2.0) + std::exp(2.2)), 1e-6)
+  EXPECT_NEAR(poses[0].confidence, std::exp(2.2) / (1.0 + 2.0 * std::exp(2.2)), 1e-6)
       << "either may be the right one, which a robot must know before it picks";
 }
 

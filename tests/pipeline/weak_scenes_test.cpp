@@ -142,7 +142,8 @@ TEST(MissingBinBoxTest, FindsWhatIsFoundWithIt) {
     const Judged with = judged(bin.scan, part, "with the box", bin.box);
     const Judged without = judged(bin.scan, part, "without");
     EXPECT_GE(with.right, 4);
-    EXPECT_GE(without.right, with.right - 1);
+    // Parts in plain view: what is found of hidden ones at even odds comes and goes.
+    EXPECT_LE(without.missed, with.missed + 1);
     EXPECT_LE(without.wrong, with.wrong + 2);
     EXPECT_LT(without.best_wrong, test::kSure) << "walls are taken for parts";
   }

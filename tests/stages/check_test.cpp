@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/stability.h"
 #include "stages/check_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
@@ -25,8 +26,10 @@ struct Bench {
   CheckResult check(const Pose& pose) const {
     const SurfaceWindow window =
         windowAround(image.camera, pose * sphere.center_mm, sphere.radius_mm, 1000);
-    return host::check(host::renderSurface(mesh, image.camera, pose, window), window, image, {});
+    return host::check(
+        host::renderSurface(mesh, image.camera, pose, window), window, image, around(pose), {});
   }
+  Sphere around(const Pose& pose) const { return {pose * sphere.center_mm, sphere.radius_mm}; }
   CheckResult checkPoints(const Pose& pose, bool with_rim = false) const {
     const SurfaceWindow window =
         windowAround(image.camera, pose * sphere.center_mm, sphere.radius_mm, 1000);
@@ -42,6 +45,18 @@ struct Bench {
     return {truth.rotation, truth.translation_mm + shift_mm};
   }
 };
+
+CheckResult checkOf(const Mesh& mesh,
+                    const DepthImage& image,
+                    const Pose& pose,
+                    const SurfaceWindow& window) {
+  const Sphere sphere = boundingSphere(mesh);
+  return host::check(host::renderSurface(mesh, image.camera, pose, window),
+                     window,
+                     image,
+                     {pose * sphere.center_mm, sphere.radius_mm},
+                     {});
+}
 
 double sumOfShares(const CheckResult& r) {
   return r.explained + r.contradicted + r.hidden + r.buried + r.missing + r.weak;
@@ -76,13 +91,11 @@ TEST(CheckTest, ExplainedAreaIsWhatTheCameraSees) {
   const Pose pose{glm::dmat3(1.0), {0.0, 0.0, 500.0}};
   test::measure(image, plate, pose);
   const SurfaceWindow window = test::wholeWindow(image.camera);
-  const CheckResult whole =
-      host::check(host::renderSurface(plate, image.camera, pose, window), window, image, {});
+  const CheckResult whole = checkOf(plate, image, pose, window);
   EXPECT_NEAR(whole.explained_mm2, 2400.0, 60.0);
   EXPECT_EQ(whole.outline, 1.0);
   const SurfaceWindow coarse{20, 20, 93, 67, 3};
-  const CheckResult third =
-      host::check(host::renderSurface(plate, image.camera, pose, coarse), coarse, image, {});
+  const CheckResult third = checkOf(plate, image, pose, coarse);
   EXPECT_NEAR(third.explained_mm2, 2400.0, 180.0) << "the step must not change the area";
   EXPECT_LT(third.pixels * 8, whole.pixels);
 }
@@ -165,8 +178,7 @@ TEST(CheckTest, AWrongSlopeIsNotExplained) {
   const SurfaceWindow window = test::wholeWindow(image.camera);
   const auto explained = [&](double tilt) {
     const Pose pose{rotationFromVector({0.0, tilt, 0.0}), {0.0, 0.0, 500.0}};
-    return host::check(host::renderSurface(plate, image.camera, pose, window), window, image, {})
-        .explained;
+    return checkOf(plate, image, pose, window).explained;
   };
   EXPECT_GT(explained(0.3), 0.9);
   EXPECT_LT(explained(0.75), 0.5);
@@ -178,8 +190,7 @@ TEST(CheckTest, AFaceInTheMiddleOfALargePlaneHasNoOutline) {
   const Mesh plate = test::plateMesh(60.0, 40.0);
   const Pose pose{glm::dmat3(1.0), {0.0, 0.0, 500.0}};
   const SurfaceWindow window = test::wholeWindow(image.camera);
-  const CheckResult result =
-      host::check(host::renderSurface(plate, image.camera, pose, window), window, image, {});
+  const CheckResult result = checkOf(plate, image, pose, window);
   EXPECT_GT(result.explained, 0.99);
   EXPECT_LT(result.outline, 0.05);
   EXPECT_LT(result.score, 0.35);
@@ -194,8 +205,7 @@ TEST(CheckTest, AnEdgeAtWhichAPartTouchesTheTableIsAnEndOfItsOutline) {
   test::measure(image, box, pose);
   test::measure(image, test::plateMesh(600.0, 600.0), pose);
   const SurfaceWindow window = test::wholeWindow(image.camera);
-  const CheckResult result =
-      host::check(host::renderSurface(box, image.camera, pose, window), window, image, {});
+  const CheckResult result = checkOf(box, image, pose, window);
   EXPECT_GT(result.outline, 0.95) << "parts in plain view on a table would be unsure";
   EXPECT_LT(result.outline_covered, 0.05);
 }
@@ -207,8 +217,7 @@ TEST(CheckTest, OneFaceIsFlatAndACornerIsNot) {
     const Pose pose{rotation, {0.0, 0.0, 900.0}};
     test::measure(image, cube, pose);
     const SurfaceWindow window = test::wholeWindow(image.camera);
-    return host::check(host::renderSurface(cube, image.camera, pose, window), window, image, {})
-        .flat;
+    return checkOf(cube, image, pose, window).flat;
   };
   EXPECT_NEAR(flat(glm::dmat3(1.0)), 1.0, 1e-6);
   // Along a diagonal three faces are as large as each other: their mean normal is that long.
@@ -217,9 +226,61 @@ TEST(CheckTest, OneFaceIsFlatAndACornerIsNot) {
       << "a flat face could be laid on any other";
 }
 
+/// A step of 20 mm between two plates, seen from above, and data that shows a part of it.
+struct Step {
+  Mesh mesh = test::meshOf({{{-30, -30, 0}, {0, 30, 2}}, {{0, -30, 20}, {30, 30, 22}}});
+  Pose pose{rotationFromVector({std::numbers::pi, 0.0, 0.0}), {0.0, 0.0, 500.0}};
+  DepthImage image{test::pinholeCamera(320, 240, 600.0), {}};
+  Step() { test::measure(image, mesh, pose); }
+  CheckResult check() const { return checkOf(mesh, image, pose, test::wholeWindow(image.camera)); }
+};
+
+TEST(CheckTest, JumpsInsideOfThePartAreMetWhereTheDataJumpsToo) {
+  Step step;
+  const CheckResult right = step.check();
+  EXPECT_GT(right.jumps_met, 0.95) << "the surest sign of a part that lies half hidden";
+  EXPECT_EQ(right.jumps_missed, 0.0);
+  // The data goes on level at the height of the nearer plate.
+  for (float& depth : step.image.depth_mm) depth = depth > 0.0f ? 478.0f : 0.0f;
+  const CheckResult level = step.check();
+  EXPECT_LT(level.jumps_met, 0.05);
+  EXPECT_GT(level.jumps_missed, 0.5);
+}
+
+TEST(CheckTest, JumpsSayNothingWhereThereAreNoneOrTheyCannotBeSeen) {
+  const Mesh plate = test::plateMesh(60.0, 40.0);
+  DepthImage image{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 500.0f)};
+  const CheckResult none =
+      checkOf(plate, image, {glm::dmat3(1.0), {0.0, 0.0, 500.0}}, test::wholeWindow(image.camera));
+  EXPECT_EQ(none.jumps_met, 0.5);
+  EXPECT_EQ(none.jumps_missed, 0.0);
+  Step step;  // the farther plate was not measured
+  for (float& depth : step.image.depth_mm) depth = depth < 485.0f ? depth : 0.0f;
+  EXPECT_EQ(step.check().jumps_met, 0.5);
+  EXPECT_EQ(step.check().jumps_missed, 0.0);
+}
+
+/// Of a plate that faces the camera.
+double stabilityOfPlate(const DepthImage& image) {
+  const Mesh plate = test::meshOf({{{-30, -20, 0}, {30, 20, 4}}});
+  const Pose pose{rotationFromVector({std::numbers::pi, 0.0, 0.0}), {0.0, 0.0, 504.0}};
+  const CheckResult result = checkOf(plate, image, pose, test::wholeWindow(image.camera));
+  return stability(
+      result.covariance, stabilityCovariance(plate, boundingSphere(plate)), pose.rotation);
+}
+
+TEST(CheckTest, OnlyItsEndsHoldAPlate) {
+  const Mesh plate = test::meshOf({{{-30, -20, 0}, {30, 20, 4}}});
+  DepthImage image{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 540.0f)};
+  test::measure(image, plate, {rotationFromVector({std::numbers::pi, 0.0, 0.0}), {0, 0, 504.0}});
+  EXPECT_GT(stabilityOfPlate(image), 0.2) << "all of its outline is seen to end";
+  const DepthImage floor{image.camera, Image<float>(320, 240, 500.0f)};
+  EXPECT_LT(stabilityOfPlate(floor), 0.05) << "it could lie anywhere on the floor";
+}
+
 TEST(CheckTest, NothingRenderedScoresNothing) {
   const Bench bench;
-  const CheckResult empty = host::check({}, {}, bench.image, {});
+  const CheckResult empty = host::check({}, {}, bench.image, bench.around(bench.truth), {});
   EXPECT_EQ(empty.pixels, 0);
   EXPECT_EQ(empty.score, 0.0);
   EXPECT_EQ(host::checkPoints({}, bench.truth, 0.0, bench.image, {}).score, 0.0);

@@ -17,7 +17,8 @@ CheckResult Verdict::checked(const Candidate& candidate,
       wholeWindowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, pixels);
   const Image<SurfaceTexel> surface =
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
-  return host::check(surface, window, depth_, options);
+  return host::check(
+      surface, window, depth_, {candidate.pose * object.center_mm, object.radius_mm}, options);
 }
 
 void Verdict::judge(Candidate& candidate) const {
@@ -25,7 +26,7 @@ void Verdict::judge(Candidate& candidate) const {
   const ReferenceObject& object = objectOf(candidate);
   const CheckOptions options = checkOptionsFor(object, noise_mm_);
   candidate.outside = enclosure_.outsideShare(candidate.object, candidate.pose);
-  setConfidence(candidate, checked(candidate, options, kPixels), meanVisibleArea(object));
+  setConfidence(candidate, checked(candidate, options, kPixels), object, meanVisibleArea(object));
 }
 
 void Verdict::glance(Candidate& candidate) const {

@@ -46,6 +46,9 @@ Json checkJson(const CheckResult& check) {
           {"outline", finite(check.outline, "check.outline")},
           {"outline_covered", finite(check.outline_covered, "check.outline_covered")},
           {"flat", finite(check.flat, "check.flat")},
+          {"stability", finite(check.stability, "check.stability")},
+          {"jumps_met", finite(check.jumps_met, "check.jumps_met")},
+          {"jumps_missed", finite(check.jumps_missed, "check.jumps_missed")},
           {"explained_mm2", finite(check.explained_mm2, "check.explained_mm2")},
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
 }
