@@ -258,8 +258,8 @@ void refineFinely(std::vector<Candidate>& candidates,
   // What its view's points explain of a mean visible area. Of 2,365 parts in tuning bins this loses
   // one, and it spares half of the rendering; the best is rendered in any case.
   constexpr double kFaint = 0.15;
-  // Odds of e^-3: no long alignment makes such a pose right.
-  constexpr double kHopeless = -3.0;
+  // Odds of e^-2: no long alignment makes such a pose right.
+  constexpr double kHopeless = -2.0;
   if (candidates.empty()) return;
   candidates.erase(std::remove_if(candidates.begin() + 1,
                                   candidates.end(),

@@ -12,13 +12,13 @@
 namespace rangepose {
 namespace {
 
-constexpr double kSame = 0.05;         // of the diameter
-constexpr double kMostShared = 0.25;   // of the pixels that a pose explains
-constexpr double kFaint = 0.02;        // confidence below which a pose is nobody's rival
-constexpr double kWorthTurning = 0.1;  // confidence
-constexpr double kRival = 0.5;         // of the pixels of the larger of two poses
-constexpr double kFound = 0.5;         // confidence from which on a part hides others
-constexpr double kSure = 0.98;         // confidence from which on nobody looks there again
+constexpr double kSame = 0.05;          // of the diameter
+constexpr double kMostShared = 0.25;    // of the pixels that a pose explains
+constexpr double kFaint = 0.08;         // confidence below which a pose is nobody's rival
+constexpr double kWorthTurning = 0.25;  // confidence
+constexpr double kRival = 0.5;          // of the pixels of the larger of two poses
+constexpr double kFound = 0.5;          // confidence from which on a part hides others
+constexpr double kSure = 0.93;          // confidence from which on nobody looks there again
 
 PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   if (pixels.empty()) return {};
