@@ -20,10 +20,10 @@ struct IcpTask {
   double shrink = 1.0;  ///< icpShrink(options)
 };
 
-/// Sums over the points: nothing but doubles, see HostBlock::sum.
+/// Sums over the points: nothing but floats, see HostBlock::sum.
 struct PointSums {
-  IcpSums icp;
-  double pairs;
+  IcpSumsOf<float> icp;
+  float pairs;
 };
 
 /// Shared by the threads of a block; the leader changes it.
@@ -41,13 +41,13 @@ RP_BODY void endIteration(const IcpTask& task,
                           IcpShared& shared) {
   const bool moved = icpAdvance(shared.result,
                                 shared.frame,
-                                sums.icp,
-                                sums.pairs,
+                                inDoubles(sums.icp),
+                                static_cast<double>(sums.pairs),
                                 task.point_count,
                                 task.center_mm,
                                 task.shrink);
-  shared.view = icpView(shared.frame, task.options, camera);
   shared.done = !moved || shared.result.iterations >= task.options.iterations;
+  if (!shared.done) shared.view = icpView(shared.frame, task.options, camera);
 }
 
 /// `points` are those of all tasks. `read` as in icp_points_core.h.
@@ -74,11 +74,11 @@ RP_BODY void alignPose(Block& block,
         const SurfacePoint& point = points[task.first_point + i];
         const bool found =
             addPoints(own.icp, shared.view, read, onePoint(point, task.options), point.rim);
-        if (found) own.pairs += 1.0;
+        if (found) own.pairs += 1.0f;
       }
       sums[thread] = own;
     });
-    block.template sum<double>(
+    block.template sum<float>(
         sums, [&](const PointSums& all) { endIteration(task, all, camera, shared); });
   }
   block.leader([&] { answer = shared.result; });

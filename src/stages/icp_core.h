@@ -28,7 +28,8 @@ struct IcpOptions {
 };
 
 /// Upper triangle of a symmetric 6x6 matrix, row by row, a right side, and the sums that say how
-/// good the fit is. Of one sum or of eight.
+/// good the fit is. Of one point or of eight at a time, added up in floats, which err by a
+/// millionth.
 template <typename Number>
 struct IcpSumsOf {
   Number hessian[21];
@@ -36,7 +37,17 @@ struct IcpSumsOf {
   Number weight;   ///< sum of robust weights
   Number squared;  ///< weighted sum of squared residuals [radii^2]
 };
+/// Of all points, to be solved.
 using IcpSums = IcpSumsOf<double>;
+
+RP_HD IcpSums inDoubles(const IcpSumsOf<float>& sums) {
+  IcpSums result;
+  for (int i = 0; i < 21; ++i) result.hessian[i] = static_cast<double>(sums.hessian[i]);
+  for (int i = 0; i < 6; ++i) result.gradient[i] = static_cast<double>(sums.gradient[i]);
+  result.weight = static_cast<double>(sums.weight);
+  result.squared = static_cast<double>(sums.squared);
+  return result;
+}
 
 /// Adds weight * row^T row and weight * residual * row.
 template <typename Number>
@@ -58,20 +69,20 @@ RP_LANES void addRow(IcpSumsOf<Number>& sums,
 /// The scene point is seen as the one that moves: the model's normal, which has no noise, is the
 /// plane's. `slide` is the share of a point-to-point term: it holds what point-to-plane leaves
 /// free, a model that reaches past the end of the data.
-template <typename Number>
+template <typename Number, typename Scalar>
 RP_LANES void addPair(IcpSumsOf<Number>& sums,
                       const Lane3<Number>& model,
                       const Lane3<Number>& normal,
                       const Lane3<Number>& scene,
                       const Number& weight,
-                      double slide) {
+                      Scalar slide) {
   const Lane3<Number> gap = scene - model;
   const Number residual = dot(normal, gap);
   const Lane3<Number> turn = cross(scene, normal);
   addRow<Number>(sums, {turn.x, turn.y, turn.z, normal.x, normal.y, normal.z}, residual, weight);
   sums.weight += weight;
   sums.squared += weight * residual * residual;
-  if (slide <= 0.0) return;
+  if (slide <= Scalar{}) return;
   // The rows of the three coordinates, (0, z, -y, 1, 0, 0), (-z, 0, x, 0, 1, 0) and (y, -x, 0, 0,
   // 0, 1), without their zeros.
   const Number w = weight * slide;

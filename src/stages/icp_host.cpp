@@ -78,15 +78,17 @@ struct DepthPixels {
 
   RP_LANES Float8 operator()(const Int8& where, const Int8& u, const Int8& v) const {
     const Int8 index = pick(where, v * width + u, Int8{});
+    int at[kLanes];
+    std::memcpy(at, &index, sizeof at);
     Float8 depth;
-    for (int i = 0; i < 8; ++i) depth[i] = depth_mm[index[i]];
+    for (int i = 0; i < kLanes; ++i) depth[i] = depth_mm[at[i]];
     return pick(where, depth, Float8{});
   }
 };
 
 /// The sums of all points, and how many have a partner.
 struct PointSums {
-  IcpSums sums;
+  IcpSumsOf<float> sums;
   int pairs;
 };
 
@@ -94,7 +96,7 @@ RP_SIMD_CLONES void addAll(const Points& points,
                            const IcpView& view,
                            const DepthPixels& depth,
                            PointSums& result) {
-  IcpSumsOf<Double8> sums{};
+  IcpSumsOf<Float8> sums{};
   Int8 pairs{};
   for (const Eight& block : points.faces)
     pairs -= addPoints(sums, view, depth, loaded(block), false);
@@ -128,7 +130,8 @@ IcpResult icp(const std::vector<SurfacePoint>& points,
     PointSums all;
     addAll(eights, icpView(frame, options, camera), depth, all);
     const int count = static_cast<int>(points.size());
-    if (!icpAdvance(result, frame, all.sums, all.pairs, count, center_mm, shrink)) return result;
+    if (!icpAdvance(result, frame, inDoubles(all.sums), all.pairs, count, center_mm, shrink))
+      return result;
   }
   return result;
 }

@@ -18,10 +18,10 @@ struct IcpView {
   float turn[3][3];  ///< rows of the rotation of camera_from_object
   float shift_mm[3];
   float center_mm[3];  ///< of the object's sphere, in the camera frame
-  float radius_mm;     ///< of that sphere
+  float radii_per_mm;  ///< 1 / radius of that sphere
   float reach_mm;      ///< pairs farther apart are left out
   int search_steps;
-  double slide;        ///< share of the point-to-point term
+  float slide;         ///< share of the point-to-point term
   float rim_reach_mm;  ///< see IcpOptions
   float rim_steps;
   float rim_weight;
@@ -42,10 +42,10 @@ RP_HD IcpView icpView(const IcpFrame& frame, const IcpOptions& options, const Ca
     view.shift_mm[i] = static_cast<float>(frame.pose.translation_mm[i]);
     view.center_mm[i] = static_cast<float>(frame.center_mm[i]);
   }
-  view.radius_mm = static_cast<float>(frame.radius_mm);
+  view.radii_per_mm = static_cast<float>(1.0 / frame.radius_mm);
   view.reach_mm = static_cast<float>(frame.reach_mm);
   view.search_steps = options.search_steps;
-  view.slide = options.slide;
+  view.slide = static_cast<float>(options.slide);
   view.rim_reach_mm = static_cast<float>(options.rim_reach_mm);
   view.rim_steps = static_cast<float>(options.rim_steps);
   view.rim_weight = static_cast<float>(options.rim_weight);
@@ -105,10 +105,10 @@ RP_LANES PixelOf<V> projected(const IcpView& view, const Lane3<V>& point_mm) {
 
 /// Relative to the centre of the object's sphere, in its radii.
 template <typename V>
-RP_LANES Lane3<typename LanesOf<V>::Double> inRadii(const IcpView& view, const Lane3<V>& a) {
-  return {asDouble((a.x - view.center_mm[0]) / view.radius_mm),
-          asDouble((a.y - view.center_mm[1]) / view.radius_mm),
-          asDouble((a.z - view.center_mm[2]) / view.radius_mm)};
+RP_LANES Lane3<V> inRadii(const IcpView& view, const Lane3<V>& a) {
+  return {(a.x - view.center_mm[0]) * view.radii_per_mm,
+          (a.y - view.center_mm[1]) * view.radii_per_mm,
+          (a.z - view.center_mm[2]) * view.radii_per_mm};
 }
 
 }  // namespace icp_detail
@@ -209,7 +209,6 @@ RP_LANES RimPartner<V> rimPartner(const IcpView& view,
   using namespace icp_detail;
   using Int = typename LanesOf<V>::Int;
   using Mask = typename LanesOf<V>::Mask;
-  constexpr int kEnded = 2;
   RimPartner<V> nearest{Mask{}, all<V>(view.rim_reach_mm)};
   const Mask usable = wanted && inFront(view, point_mm) && across > 0.1f;
   const Lane3<V> point{point_mm.x, point_mm.y, pick(usable, point_mm.z, all<V>(1.0f))};
@@ -231,40 +230,38 @@ RP_LANES RimPartner<V> rimPartner(const IcpView& view,
                  pixel.v > v_margin && pixel.v < asFloat(view.height - 1) - v_margin;
   // At least the reach, in whole steps.
   const Int steps = truncated(pick(running, reach_steps, V{})) + 2;
-  const V first = -asFloat(steps);
-  const V u0 = pixel.u + 0.5f + first * du;
-  const V v0 = pixel.v + 0.5f + first * dv;
-  const V line0 = point.z + first * (out.z * scale);
   const V line_step = out.z * scale;
-  V shift_mm{};  // of the data from the line
+  V i = -asFloat(steps);
+  V u = pixel.u + 0.5f + i * du;
+  V v = pixel.v + 0.5f + i * dv;
+  V expected_mm = point.z + i * line_step;  // on the line; where followed, of the data
   Mask followed{};
-  V last_on{};
-  Int off = Int{} + kEnded;  // nothing has begun that could end
-  V nearest_mm = nearest.beyond_mm;
-  for (int k = 0; anyOf(running); ++k) {
-    const V i = first + asFloat(k);
-    const V seen = read(running, truncated(u0 + asFloat(k) * du), truncated(v0 + asFloat(k) * dv));
-    const V behind_line = seen - (line0 + asFloat(k) * line_step);
+  Mask on{};
+  Mask ended_once{};  // not on, after a step that was
+  while (anyOf(running)) {
+    const V seen = read(running, truncated(u), truncated(v));
+    const V behind = seen - expected_mm;
     const Mask known = seen != 0.0f;
-    const Mask begins = both(known, both(!followed, magnitude(behind_line) < view.reach_mm));
+    const Mask begins = both(known, both(!followed, magnitude(behind) < view.reach_mm));
     followed = either(followed, begins);
-    shift_mm = pick(begins, behind_line, shift_mm);
-    const V behind = behind_line - shift_mm;
     const Mask before = both(known, behind < -view.rim_gap_mm);
-    const Mask on = both(known, magnitude(behind) <= view.rim_gap_mm);
-    last_on = pick(on, i, last_on);
-    shift_mm = pick(on, behind_line, shift_mm);
-    off = pick(on, Int{}, pick(before, Int{} + kEnded, off + 1));
-    const V beyond_mm = (last_on + 0.5f) * step_mm;
-    const Mask ends =
-        both(both(running, off == kEnded), both(!before, magnitude(beyond_mm) < nearest_mm));
-    nearest.found = either(nearest.found, ends);
+    const Mask was_on = on;
+    on = both(known, either(begins, magnitude(behind) <= view.rim_gap_mm));
+    const Mask off = !either(on, before);
+    // The data was there two steps ago for the last time.
+    const V beyond_mm = (i - 1.5f) * step_mm;
+    const V nearest_mm = magnitude(nearest.beyond_mm);
+    const Mask ends = both(both(running, both(ended_once, off)), magnitude(beyond_mm) < nearest_mm);
     nearest.beyond_mm = pick(ends, beyond_mm, nearest.beyond_mm);
-    nearest_mm = magnitude(nearest.beyond_mm);
-    // Another end would lie farther out than here.
-    const Mask farther = both(nearest.found, i * step_mm > nearest_mm);
-    running = both(running, both(i <= asFloat(steps), !farther));
+    ended_once = both(off, was_on);
+    expected_mm = pick(on, seen, expected_mm) + line_step;
+    // Whether what the next step may end is nearer.
+    running = both(running, (i - 0.5f) * step_mm < magnitude(nearest.beyond_mm));
+    i += 1.0f;
+    u += du;
+    v += dv;
   }
+  nearest.found = magnitude(nearest.beyond_mm) < view.rim_reach_mm;
   return nearest;
 }
 
@@ -272,7 +269,7 @@ RP_LANES RimPartner<V> rimPartner(const IcpView& view,
 /// Its row says how far the rim moves across itself in the image, which motion along the line of
 /// sight does not change. Without weight in the sums that tell how well faces fit.
 template <typename V, typename Read>
-RP_LANES typename LanesOf<V>::Mask addRim(IcpSumsOf<typename LanesOf<V>::Double>& sums,
+RP_LANES typename LanesOf<V>::Mask addRim(IcpSumsOf<V>& sums,
                                           const IcpView& view,
                                           const Read& read,
                                           const typename LanesOf<V>::Mask& wanted,
@@ -288,23 +285,20 @@ RP_LANES typename LanesOf<V>::Mask addRim(IcpSumsOf<typename LanesOf<V>::Double>
     const V depth_mm = pick(partner.found, point_mm.z, all<V>(1.0f));
     n.z = -(n.x * point_mm.x + n.y * point_mm.y) / depth_mm;
   }
-  const V residual = partner.beyond_mm * dot(n, out) / (length * view.radius_mm);
+  const V residual = partner.beyond_mm * dot(n, out) * view.radii_per_mm / length;
   const V ratio = partner.beyond_mm / view.rim_reach_mm;
   const V rest = 1.0f - ratio * ratio;
-  using Double = typename LanesOf<V>::Double;
-  const Lane3<Double> m = inRadii(view, point_mm);
-  const Lane3<Double> direction{asDouble(n.x), asDouble(n.y), asDouble(n.z)};
-  const Lane3<Double> turn = cross(m, direction);
-  addRow<Double>(sums,
-                 {turn.x, turn.y, turn.z, direction.x, direction.y, direction.z},
-                 asDouble(residual),
-                 asDouble(pick(partner.found, view.rim_weight * (rest * rest), V{})));
+  const Lane3<V> turn = cross(inRadii(view, point_mm), n);
+  addRow<V>(sums,
+            {turn.x, turn.y, turn.z, n.x, n.y, n.z},
+            residual,
+            pick(partner.found, view.rim_weight * (rest * rest), V{}));
   return partner.found;
 }
 
 /// Adds a point of a face with its partner, likewise. The weight is Tukey's over the reach.
 template <typename V, typename Read>
-RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<typename LanesOf<V>::Double>& sums,
+RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<V>& sums,
                                            const IcpView& view,
                                            const Read& read,
                                            const typename LanesOf<V>::Mask& wanted,
@@ -316,9 +310,9 @@ RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<typename LanesOf<V>::Double
   const V rest = 1.0f - partner.squared_mm2 / squared_reach;
   addPair(sums,
           inRadii(view, point_mm),
-          {asDouble(normal.x), asDouble(normal.y), asDouble(normal.z)},
+          normal,
           inRadii(view, partner.point_mm),
-          asDouble(rest * rest),
+          rest * rest,
           view.slide);
   return partner.squared_mm2 < squared_reach;
 }
@@ -333,11 +327,8 @@ struct IcpPoints {
 
 /// Adds points with their partners, and says which have one. All are of rims, or none is.
 template <typename V, typename Read>
-RP_LANES typename LanesOf<V>::Mask addPoints(IcpSumsOf<typename LanesOf<V>::Double>& sums,
-                                             const IcpView& view,
-                                             const Read& read,
-                                             const IcpPoints<V>& own,
-                                             bool rim) {
+RP_LANES typename LanesOf<V>::Mask addPoints(
+    IcpSumsOf<V>& sums, const IcpView& view, const Read& read, const IcpPoints<V>& own, bool rim) {
   const Lane3<V> turned = icp_detail::turned(view, own.position_mm);
   const Lane3<V> point{
       turned.x + view.shift_mm[0], turned.y + view.shift_mm[1], turned.z + view.shift_mm[2]};

@@ -20,7 +20,7 @@
 
 namespace rangepose {
 
-/// What goes with V: whole numbers, conditions, sums.
+/// What goes with V: whole numbers and conditions.
 template <typename V>
 struct LanesOf;
 
@@ -28,7 +28,6 @@ template <>
 struct LanesOf<float> {
   using Int = int;
   using Mask = bool;
-  using Double = double;
 };
 
 template <typename T>
@@ -39,7 +38,6 @@ RP_LANES bool anyOf(bool mask) { return mask; }
 /// Towards 0; the value must fit.
 RP_LANES int truncated(float value) { return static_cast<int>(value); }
 RP_LANES float asFloat(int value) { return static_cast<float>(value); }
-RP_LANES double asDouble(float value) { return static_cast<double>(value); }
 RP_LANES float squareRoot(float value) { return std::sqrt(value); }
 RP_LANES float magnitude(float value) { return std::fabs(value); }
 RP_LANES bool both(bool a, bool b) { return a && b; }
@@ -48,13 +46,11 @@ RP_LANES bool either(bool a, bool b) { return a || b; }
 #ifndef __CUDACC__
 
 using Int8 = int __attribute__((vector_size(32)));
-using Double8 = double __attribute__((vector_size(64)));
 
 template <>
 struct LanesOf<Float8> {
   using Int = Int8;
   using Mask = Int8;  ///< all bits of a lane or none
-  using Double = Double8;
 };
 
 RP_LANES Float8 pick(const Int8& where, const Float8& yes, const Float8& no) {
@@ -68,7 +64,6 @@ RP_LANES bool anyOf(const Int8& mask) {
 }
 RP_LANES Int8 truncated(const Float8& value) { return __builtin_convertvector(value, Int8); }
 RP_LANES Float8 asFloat(const Int8& value) { return __builtin_convertvector(value, Float8); }
-RP_LANES Double8 asDouble(const Float8& value) { return __builtin_convertvector(value, Double8); }
 RP_LANES Float8 squareRoot(const Float8& value) {
   Float8 root;
   for (int i = 0; i < 8; ++i) root[i] = std::sqrt(value[i]);

@@ -16,9 +16,9 @@ inline constexpr float kTurnedShare = 0.05f;
 /// rounded on the host and on software rasterisers; GLSL allows 2.5 ulp for a division.
 inline constexpr int kDeviceUlps = 4;
 
-/// Farthest corner of an aligned part between two orders of the same sums in double [mm]: 1e-12 a
-/// step, unless a point finds another partner for it.
-inline constexpr double kAlignedMm = 1.0e-6;
+/// Farthest corner of an aligned part between two orders of the same sums in floats [mm]: a
+/// millionth of a part of 60 mm, or of a step.
+inline constexpr double kAlignedMm = 2.0e-4;
 /// The same with points of surfaces that two rasterisers made [mm]: they differ at borders, and a
 /// few points find other partners.
 inline constexpr double kAlignedSurfaceMm = 0.5;
