@@ -128,6 +128,16 @@ class Estimator {
     return copies;
   }
 
+  /// Looks closer at poses that are as likely as their rivals, or nearly.
+  void settleTies(Selection& selection) {
+    const ScopedTimer timer(result_.times, "ties");
+    std::vector<Candidate> ties = selection.takeTies();
+    if (ties.empty()) return;
+    const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
+    refineTies(ties, database_, scene);
+    selection.add(ties);
+  }
+
  private:
   /// The start points, in the camera frame [mm]; none near those in `tried`.
   std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
@@ -335,7 +345,8 @@ Estimate estimatePoses(const DepthImage& measured,
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;
   }
-  for (const Candidate& candidate : chosen) {
+  estimator.settleTies(selection);
+  for (const Candidate& candidate : selection.choose()) {
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
     result.poses.push_back(estimateOf(candidate));
   }

@@ -19,18 +19,26 @@ std::vector<std::int32_t> explainedPixels(const Image<SurfaceTexel>& surface,
   return pixels;
 }
 
-std::vector<NearPixel> nearPixels(const Image<SurfaceTexel>& surface,
-                                  const SurfaceWindow& window,
-                                  const DepthImage& depth,
-                                  const CheckOptions& options) {
-  std::vector<NearPixel> pixels;
+JudgedPixels judgedPixels(const Image<SurfaceTexel>& surface,
+                          const SurfaceWindow& window,
+                          const DepthImage& depth,
+                          const CheckOptions& options) {
+  JudgedPixels pixels;
   forEachMeasured(
       surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
-        const GapKind kind = gapKind(texel, seen_mm, options);
-        if (kind == GapKind::kHidden || kind == GapKind::kBuried) return;
-        const bool through = kind == GapKind::kContradicted;
-        pixels.push_back(
-            {at, through ? kSeenThrough : static_cast<float>(gapAlongNormal(texel, seen_mm))});
+        switch (gapKind(texel, seen_mm, options)) {
+          case GapKind::kAgrees:
+            pixels.near.push_back({at, static_cast<float>(gapAlongNormal(texel, seen_mm))});
+            break;
+          case GapKind::kContradicted:
+            pixels.near.push_back({at, kSeenThrough});
+            break;
+          case GapKind::kBuried:
+            pixels.buried.push_back({at, texel.w});
+            break;
+          case GapKind::kHidden:
+            break;
+        }
       });
   return pixels;
 }
@@ -38,7 +46,8 @@ std::vector<NearPixel> nearPixels(const Image<SurfaceTexel>& surface,
 // Fitted, as the weights of confidence.cpp, on pairs of a right and a wrong pose for one surface.
 double Votes::logOdds() const {
   constexpr double kFew = 4.0;  // px that may err
-  return 2.5 * std::log((first + kFew) / (second + kFew));
+  constexpr double kWeight = 2.0;
+  return kWeight * std::log((first + kFew) / (second + kFew));
 }
 
 }  // namespace rangepose

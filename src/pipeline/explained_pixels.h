@@ -50,12 +50,24 @@ struct NearPixel {
 };
 inline constexpr float kSeenThrough = -1.0f;
 
-/// Those of a rendered surface, by rising index. The window is one of the image, with step 1; the
-/// options are those of the part's check.
-std::vector<NearPixel> nearPixels(const Image<SurfaceTexel>& surface,
-                                  const SurfaceWindow& window,
-                                  const DepthImage& depth,
-                                  const CheckOptions& options);
+/// A pixel of the depth image at which a posed part lies just behind nearer data.
+struct BuriedPixel {
+  std::int32_t at;  ///< index, row by row
+  float depth_mm;   ///< of the part
+};
+
+/// Those of one part, by rising index.
+struct JudgedPixels {
+  std::vector<NearPixel> near;
+  std::vector<BuriedPixel> buried;  ///< those that the check calls so
+};
+
+/// Those of a rendered surface. The window is one of the image, with step 1; the options are those
+/// of the part's check.
+JudgedPixels judgedPixels(const Image<SurfaceTexel>& surface,
+                          const SurfaceWindow& window,
+                          const DepthImage& depth,
+                          const CheckOptions& options);
 
 /// What pixels say about which of two poses of a part is right, where one of them must be.
 struct Votes {
@@ -89,15 +101,14 @@ Votes votesBetween(const std::vector<NearPixel>& first,
     const std::int32_t at = in_a ? a->at : b->at;
     const float gap_a = in_a ? (a++)->gap_mm : 0.0f;
     const float gap_b = in_b ? (b++)->gap_mm : 0.0f;
-    if (!counts(at)) continue;
     const bool through_a = gap_a == kSeenThrough;
     const bool through_b = gap_b == kSeenThrough;
     if (through_a || through_b) {
-      if (through_a != through_b) (through_b ? votes.first : votes.second) += 1.0;
+      if (through_a != through_b && counts(at)) (through_b ? votes.first : votes.second) += 1.0;
       continue;
     }
     const double more = (in_a ? closeness(gap_a) : 0.0) - (in_b ? closeness(gap_b) : 0.0);
-    if (std::abs(more) <= kApart) continue;
+    if (std::abs(more) <= kApart || !counts(at)) continue;
     (more > 0.0 ? votes.first : votes.second) += in_a && in_b ? 1.0 : kOneAlone;
   }
   return votes;

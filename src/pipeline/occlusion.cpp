@@ -3,22 +3,8 @@
 #include <algorithm>
 
 #include "geometry/triangle_corners.h"
-#include "pipeline/explained_pixels.h"
 
 namespace rangepose {
-
-std::vector<BuriedPixel> buriedPixels(const Image<SurfaceTexel>& surface,
-                                      const SurfaceWindow& window,
-                                      const DepthImage& depth,
-                                      const CheckOptions& options) {
-  std::vector<BuriedPixel> pixels;
-  forEachMeasured(
-      surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
-        if (!(seen_mm < static_cast<double>(texel.w))) return;
-        if (gapKind(texel, seen_mm, options) == GapKind::kBuried) pixels.push_back({at, texel.w});
-      });
-  return pixels;
-}
 
 std::vector<float> exitDepths(const Mesh& mesh,
                               const Pose& camera_from_object,

@@ -9,22 +9,11 @@
 #include "core/image.h"
 #include "core/pose.h"
 #include "geometry/mesh.h"
+#include "pipeline/explained_pixels.h"
 #include "stages/check_core.h"
 #include "stages/surface.h"
 
 namespace rangepose {
-
-/// A pixel of the depth image, by index, at which a pose lies just behind nearer data.
-struct BuriedPixel {
-  std::int32_t at;
-  float depth_mm;  ///< of the pose
-};
-
-/// Those that the check calls buried. The window is one of the image, with step 1.
-std::vector<BuriedPixel> buriedPixels(const Image<SurfaceTexel>& surface,
-                                      const SurfaceWindow& window,
-                                      const DepthImage& depth,
-                                      const CheckOptions& options);
 
 /// Depth [mm] at which the ray of each of `pixels` first leaves the part, 0 where no face of the
 /// mesh looks away from the camera.

@@ -179,10 +179,12 @@ std::vector<Candidate> refineTurned(const std::vector<Candidate>& copies,
 namespace {
 
 struct FineRounds {
-  int rounds;          ///< at most
-  int points;          ///< of each surface
-  double first_reach;  ///< of the first round [tolerances]
-  double still;        ///< see FineEffort
+  int rounds;               ///< at most
+  int points;               ///< of each surface
+  double first_reach;       ///< of the first round [tolerances]
+  double still;             ///< see FineEffort
+  double last_reach = 1.0;  ///< of the last iteration of each round [tolerances]
+  double rim_reach = 0.05;  ///< share of the diameter
 };
 
 /// Aligns what is visible of the candidates that move, and gives those that moved still.
@@ -197,7 +199,6 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   constexpr double kNearlyRight = 4.0;  // tolerances
   // Faces alone leave a plate free to slide in its plane; where rims hold it, a pull towards the
   // nearest points would only slow it down.
-  constexpr double kRimReach = 0.05;  // of the diameter
   std::vector<RenderTask> tasks;
   for (const std::size_t i : moving) {
     const ReferenceObject& object = objectOf(candidates[i], database);
@@ -205,10 +206,11 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     RenderTask& task = tasks.emplace_back(
         surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
     task.max_points = fine.points;
-    task.alignment = icpOptions(reach_tolerances * tolerance, tolerance, kFineIterations);
+    task.alignment =
+        icpOptions(reach_tolerances * tolerance, fine.last_reach * tolerance, kFineIterations);
     task.alignment.search_steps = reach_tolerances > kNearlyRight ? 2 : 1;
     task.alignment.slide = 0.0;
-    task.alignment.rim_reach_mm = kRimReach * object.diameter_mm;
+    task.alignment.rim_reach_mm = fine.rim_reach * object.diameter_mm;
   }
   const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
   std::vector<std::size_t> still_moving;
@@ -249,6 +251,21 @@ void refineAll(std::vector<Candidate>& candidates,
       candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);
 }
 
+/// Where little holds a pose, it may drift off: then it stays.
+void refineUnlessWorse(std::vector<Candidate>& candidates,
+                       const ReferenceDatabase& database,
+                       const RefineScene& scene,
+                       const FineRounds& fine) {
+  constexpr double kWorse = 3.0;  // log odds
+  const std::vector<Candidate> before = candidates;
+  refineAll(candidates, database, scene, fine);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].rank < before[i].rank - kWorse) candidates[i] = before[i];
+  }
+}
+
+constexpr int kFinePoints = 900;  // of a surface, for a pose that is to rest
+
 }  // namespace
 
 void refineFinely(std::vector<Candidate>& candidates,
@@ -268,12 +285,13 @@ void refineFinely(std::vector<Candidate>& candidates,
   refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
-  const std::vector<Candidate> before = candidates;
-  refineAll(candidates, database, scene, {8, 900, 3.0, effort.still});
-  // Where little holds a pose, it may drift off.
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].rank < before[i].rank - 3.0) candidates[i] = before[i];
-  }
+  refineUnlessWorse(candidates, database, scene, {8, kFinePoints, 3.0, effort.still});
+}
+
+void refineTies(std::vector<Candidate>& candidates,
+                const ReferenceDatabase& database,
+                const RefineScene& scene) {
+  refineUnlessWorse(candidates, database, scene, {16, kFinePoints, 1.5, 1e-5, 0.5, 0.08});
 }
 
 }  // namespace rangepose

@@ -82,6 +82,12 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const RefineScene& scene,
                   const FineEffort& effort);
 
+/// Aligns checked poses that the image hardly tells apart until they rest, each pair within half of
+/// the tolerance, and checks them again: what tells them apart may be less than what they are off.
+void refineTies(std::vector<Candidate>& candidates,
+                const ReferenceDatabase& database,
+                const RefineScene& scene);
+
 /// Surfaces of an object closer than this count as the same [mm].
 double toleranceFor(const ReferenceObject& object, double noise_mm);
 

@@ -48,40 +48,55 @@ Selection::Selection(const DepthImage& depth,
 
 const Selection::Entry* Selection::find(const Candidate& candidate) const {
   const PoseDistance& distance = distances_[static_cast<std::size_t>(candidate.object)];
-  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {
-    return entry.candidate.object == candidate.object &&
-           distance.below(kSame, entry.candidate.pose, candidate.pose);
+  const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
+    return entry->candidate.object == candidate.object &&
+           distance.below(kSame, entry->candidate.pose, candidate.pose);
   });
-  return found == entries_.end() ? nullptr : &*found;
+  return found == entries_.end() ? nullptr : found->get();
 }
 
 bool Selection::knows(const Candidate& candidate) const { return find(candidate) != nullptr; }
 
 void Selection::add(const std::vector<Candidate>& candidates) {
-  std::vector<Entry> added;
+  std::vector<std::unique_ptr<Entry>> added;
   for (const Candidate& candidate : candidates) {
     if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
-    Entry& entry = added.emplace_back();
+    Entry& entry = *added.emplace_back(std::make_unique<Entry>());
     entry.candidate = entry.alone = candidate;
     entry.id = added_++;
   }
   parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      describe(added[i]);
+      describe(*added[i]);
   });
-  for (Entry& entry : added) {
-    if (const Entry* known = find(entry.candidate)) {
-      if (known->alone.rank >= entry.alone.rank) continue;
-      entries_.erase(entries_.begin() + (known - entries_.data()));
+  for (std::unique_ptr<Entry>& entry : added) {
+    if (const Entry* known = find(entry->candidate)) {
+      if (known->alone.rank >= entry->alone.rank) continue;
+      erase(known);
     }
-    entries_.push_back(std::move(entry));
+    insert(std::move(entry));
   }
   judgeAmongOthers();
+  chosen_ = chosen();
+}
+
+void Selection::insert(std::unique_ptr<Entry> entry) {
+  for (const auto& other : entries_) {
+    if (other->candidate.object != entry->candidate.object || !shareMost(*other, *entry)) continue;
+    other->rivals.push_back(entry.get());
+    entry->rivals.push_back(other.get());
+  }
+  entries_.push_back(std::move(entry));
+}
+
+void Selection::erase(const Entry* entry) {
+  for (Entry* rival : entry->rivals) std::erase(rival->rivals, entry);
+  std::erase_if(entries_, [&](const auto& one) { return one.get() == entry; });
 }
 
 void Selection::orderByRank() {
-  std::stable_sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
-    return a.candidate.rank > b.candidate.rank;
+  std::stable_sort(entries_.begin(), entries_.end(), [](const auto& a, const auto& b) {
+    return a->candidate.rank > b->candidate.rank;
   });
 }
 
@@ -89,7 +104,7 @@ void Selection::judgeAmongOthers() {
   constexpr double kSlack = 0.5;  // tolerances
   // Of a pose under others that explains little, the rest fits anything.
   constexpr double kEnough = 0.5;  // of a mean visible area
-  for (Entry& entry : entries_) entry.candidate = entry.alone;
+  for (const auto& entry : entries_) entry->candidate = entry->alone;
   orderByRank();
   FoundParts found(depth_.depth_mm.size());
   std::fill(owners_.begin(), owners_.end(), kNobody);
@@ -98,14 +113,14 @@ void Selection::judgeAmongOthers() {
     found.add(entry->pixels, entry->exit_mm);
     for (const std::int32_t at : entry->pixels) owners_.data()[at] = entry->id;
   }
-  for (Entry& entry : entries_) {
-    const ReferenceObject& object = objectOf(entry);
+  for (const auto& entry : entries_) {
+    const ReferenceObject& object = objectOf(*entry);
     const double mean_mm2 = meanVisibleArea(object);
-    if (entry.alone.check.explained_mm2 < kEnough * mean_mm2) continue;
+    if (entry->alone.check.explained_mm2 < kEnough * mean_mm2) continue;
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
-    const double share = found.coveredShare(entry.pixels, entry.buried, slack_mm);
+    const double share = found.coveredShare(entry->pixels, entry->judged.buried, slack_mm);
     if (share > 0.0) {
-      setConfidence(entry.candidate, withCovered(entry.alone.check, share), object, mean_mm2);
+      setConfidence(entry->candidate, withCovered(entry->alone.check, share), object, mean_mm2);
     }
   }
   orderByRank();
@@ -120,13 +135,11 @@ void Selection::describe(Entry& entry) const {
   const Image<SurfaceTexel> surface =
       host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
   const CheckOptions options = checkOptionsFor(object, noise_mm_);
-  const double same_mm = sameSurfaceMm(options.tolerance_mm);
-  entry.pixels = explainedPixels(surface, window, depth_, same_mm);
+  entry.judged = judgedPixels(surface, window, depth_, options);
+  entry.pixels = explainedPixels(surface, window, depth_, sameSurfaceMm(options.tolerance_mm));
   entry.box = boxAround(entry.pixels, depth_.camera.width);
   if (candidate.confidence >= kFound)
     entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
-  entry.buried = buriedPixels(surface, window, depth_, options);
-  entry.near = nearPixels(surface, window, depth_, options);
 }
 
 bool Selection::shareMost(const Entry& a, const Entry& b) {
@@ -145,22 +158,25 @@ bool Selection::shareMost(const Entry& a, const Entry& b) {
   return static_cast<double>(count) >= wanted;
 }
 
-double Selection::preference(const Entry& rival, const Entry& entry, const Rivals& rivals) const {
+double Selection::preference(const Entry& rival, const Entry& entry, double close_mm) const {
   // Each of them may look right by itself; what decides is what tells them apart. What belongs to
   // another part says nothing about these.
   const auto counts = [&](std::int32_t at) {
     const std::int32_t owner = owners_.data()[at];
     return owner == kNobody || owner == entry.id ||
-           std::any_of(rivals.entries.begin(), rivals.entries.end(), [&](const Entry* one) {
+           std::any_of(entry.rivals.begin(), entry.rivals.end(), [&](const Entry* one) {
              return one->id == owner;
            });
   };
-  return votesBetween(rival.near, entry.near, rivals.close_mm, counts).logOdds();
+  return votesBetween(rival.judged.near, entry.judged.near, close_mm, counts).logOdds();
 }
 
-double Selection::closeMm(const Entry& entry, double residual_mm) const {
+double Selection::closeMm(const Entry& entry) const {
   constexpr double kSigmas = 2.0;
   constexpr double kAtRest = 0.005;  // of the diameter: what aligned poses are off, and more
+  double residual_mm = entry.candidate.check.residual_mm;
+  for (const Entry* rival : entry.rivals)
+    residual_mm = std::min(residual_mm, rival->candidate.check.residual_mm);
   // The mean of the absolute value of x from N(0, s^2) is 0.8 s.
   const double sigma_mm = std::max(residual_mm / 0.8, noise_mm_);
   const ReferenceObject& object = objectOf(entry);
@@ -177,13 +193,13 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
     });
     return static_cast<double>(shared) <= kMostShared * static_cast<double>(entry.pixels.size());
   };
-  for (const Entry& entry : entries_) {
-    if (!(entry.candidate.confidence >= min_confidence_) || !isFree(entry)) continue;
-    const Rivals rivals = rivalsOf(entry);
-    const Entry* best = &entry;
+  for (const auto& entry : entries_) {
+    if (!(entry->candidate.confidence >= min_confidence_) || !isFree(*entry)) continue;
+    const double close_mm = closeMm(*entry);
+    const Entry* best = entry.get();
     double most = 0.0;
-    for (const Entry* rival : rivals.entries) {
-      const double its = preference(*rival, entry, rivals);
+    for (const Entry* rival : entry->rivals) {
+      const double its = preference(*rival, *entry, close_mm);
       if (!(its > most) || !isFree(*rival)) continue;
       best = rival;
       most = its;
@@ -194,26 +210,14 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   return entries;
 }
 
-Selection::Rivals Selection::rivalsOf(const Entry& entry) const {
-  std::vector<const Entry*> rivals;
-  double residual_mm = entry.candidate.check.residual_mm;
-  for (const Entry& other : entries_) {
-    if (&other == &entry || other.candidate.object != entry.candidate.object) continue;
-    if (!shareMost(entry, other)) continue;
-    rivals.push_back(&other);
-    residual_mm = std::min(residual_mm, other.candidate.check.residual_mm);
-  }
-  return {rivals, closeMm(entry, residual_mm)};
-}
-
 std::vector<Candidate> Selection::choose() const {
   std::vector<Candidate> candidates;
-  for (const Entry* entry : chosen()) {
+  for (const Entry* entry : chosen_) {
     const double odds = std::exp(entry->candidate.rank);
+    const double close_mm = closeMm(*entry);
     double all = 1.0 + odds;
-    const Rivals rivals = rivalsOf(*entry);
-    for (const Entry* rival : rivals.entries)
-      all += odds * std::exp(preference(*rival, *entry, rivals));
+    for (const Entry* rival : entry->rivals)
+      all += odds * std::exp(preference(*rival, *entry, close_mm));
     const double confidence = odds / all;
     if (!(confidence >= min_confidence_)) continue;
     candidates.push_back(entry->candidate);
@@ -229,15 +233,15 @@ std::vector<Candidate> Selection::choose() const {
 std::vector<Candidate> Selection::turnedCopies() {
   std::vector<Candidate> copies;
   int window = 0;
-  for (Entry& entry : entries_) {
-    if (entry.turned || entry.candidate.confidence < kWorthTurning) continue;
-    entry.turned = true;
+  for (const auto& entry : entries_) {
+    if (entry->turned || entry->candidate.confidence < kWorthTurning) continue;
+    entry->turned = true;
     for (Candidate& copy :
-         rangepose::turnedCopies(entry.candidate,
-                                 entry.pixels,
+         rangepose::turnedCopies(entry->candidate,
+                                 entry->pixels,
                                  depth_,
-                                 objectOf(entry),
-                                 moments_[static_cast<std::size_t>(entry.candidate.object)])) {
+                                 objectOf(*entry),
+                                 moments_[static_cast<std::size_t>(entry->candidate.object)])) {
       copy.window = window;
       copies.push_back(copy);
     }
@@ -246,8 +250,30 @@ std::vector<Candidate> Selection::turnedCopies() {
   return copies;
 }
 
+std::vector<Candidate> Selection::takeTies() {
+  constexpr double kNearly = 2.0;  // log odds
+  std::vector<const Entry*> ties;
+  const auto tie = [&](const Entry* entry) {
+    if (std::find(ties.begin(), ties.end(), entry) == ties.end()) ties.push_back(entry);
+  };
+  for (const Entry* entry : chosen_) {
+    const double close_mm = closeMm(*entry);
+    for (const Entry* rival : entry->rivals) {
+      if (std::abs(preference(*rival, *entry, close_mm)) > kNearly) continue;
+      tie(entry);
+      tie(rival);
+    }
+  }
+  std::vector<Candidate> candidates;
+  for (const Entry* entry : ties) {
+    candidates.push_back(entry->alone);
+    erase(entry);
+  }
+  return candidates;
+}
+
 void Selection::takeOut(Image<std::uint8_t>& mask) const {
-  for (const Entry* entry : chosen()) {
+  for (const Entry* entry : chosen_) {
     if (entry->candidate.confidence < kSure) continue;
     for (const std::int32_t at : entry->pixels) mask.data()[at] = 0;
   }

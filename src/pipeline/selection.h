@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/camera.h"
@@ -36,6 +37,9 @@ class Selection {
   /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
   /// aligned and checked; those of a pose have a `window` of their own.
   std::vector<Candidate> turnedCopies();
+  /// Takes the chosen poses out for which another one of the same surface is as likely, or nearly,
+  /// and these as well, each judged by itself: to be aligned more closely and added again.
+  std::vector<Candidate> takeTies();
   /// Takes what sure poses explain, with or without rivals, out of the mask of pixels. What unsure
   /// ones explain stays: the right pose may not have been found yet.
   void takeOut(Image<std::uint8_t>& mask) const;
@@ -48,22 +52,18 @@ class Selection {
     std::vector<std::int32_t> pixels;  ///< explained ones, by rising index
     PixelBox box;                      ///< around them
     std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
-    std::vector<BuriedPixel> buried;
-    std::vector<NearPixel> near;
-    int id = 0;           ///< never the same twice
-    bool turned = false;  ///< whether its turned copies were given away
-  };
-  /// Other poses of the same object for the same surface.
-  struct Rivals {
-    std::vector<const Entry*> entries;
-    /// Model and data that close are as near as any of the poses comes [mm]. What tells the wrong
-    /// way round from the right one may be smaller than the tolerance of the check.
-    double close_mm;
+    JudgedPixels judged;
+    std::vector<Entry*> rivals;  ///< other poses of the same object for the same surface
+    std::int32_t id = 0;         ///< never the same twice
+    bool turned = false;         ///< whether its turned copies were given away
   };
   const ReferenceObject& objectOf(const Entry& entry) const {
     return database_.objects[static_cast<std::size_t>(entry.candidate.object)];
   }
   const Entry* find(const Candidate& candidate) const;
+  /// Takes an entry in, with the rivals that it meets here.
+  void insert(std::unique_ptr<Entry> entry);
+  void erase(const Entry* entry);
   /// Fills in what follows from the candidate and the image.
   void describe(Entry& entry) const;
   /// Orders the poses, surest first, then judges all anew: what found parts hide of a pose does not
@@ -72,23 +72,24 @@ class Selection {
   void orderByRank();
   /// Whether they are for the same surface, by the pixels that both explain.
   static bool shareMost(const Entry& a, const Entry& b);
-  /// Log odds of a rival against the entry.
-  double preference(const Entry& rival, const Entry& entry, const Rivals& rivals) const;
-  /// What `close_mm` follows from: the smallest residual of an entry and its rivals [mm].
-  double closeMm(const Entry& entry, double residual_mm) const;
+  /// Log odds of a rival against the entry, see closeMm().
+  double preference(const Entry& rival, const Entry& entry, double close_mm) const;
+  /// Model and data that close are as near as the entry or any of its rivals comes [mm]. What tells
+  /// the wrong way round from the right one may be smaller than the tolerance of the check.
+  double closeMm(const Entry& entry) const;
   /// Those that share no surface, in the order of the surest pose for it.
   std::vector<const Entry*> chosen() const;
-  Rivals rivalsOf(const Entry& entry) const;
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
   double noise_mm_;
   double min_confidence_;
-  std::vector<PoseDistance> distances_;  ///< by object
-  std::vector<AreaMoments> moments_;     ///< by object
-  std::vector<Entry> entries_;           ///< surest first
-  int added_ = 0;                        ///< entries so far
-  Image<std::int32_t> owners_;           ///< by pixel: the entry found there, or kNobody
+  std::vector<PoseDistance> distances_;          ///< by object
+  std::vector<AreaMoments> moments_;             ///< by object
+  std::vector<std::unique_ptr<Entry>> entries_;  ///< surest first
+  std::vector<const Entry*> chosen_;             ///< chosen() of all that were added
+  std::int32_t added_ = 0;                       ///< entries so far
+  Image<std::int32_t> owners_;                   ///< by pixel: the entry found there, or kNobody
 };
 
 }  // namespace rangepose

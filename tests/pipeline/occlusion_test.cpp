@@ -56,7 +56,7 @@ class OcclusionTest : public testing::Test {
     Seen result;
     result.explained = explainedPixels(surface, window, image_, options_.tolerance_mm);
     result.exit_mm = exitDepths(of.mesh, pose, image_.camera, window, result.explained);
-    result.buried = buriedPixels(surface, window, image_, options_);
+    result.buried = judgedPixels(surface, window, image_, options_).buried;
     return result;
   }
   Pose shifted(double z_mm) const {

@@ -154,6 +154,25 @@ TEST_F(TurnedBarTest, OfRivalsTheOneThatFitsMoreCloselyWins) {
   }
 }
 
+TEST_F(TurnedBarTest, PosesThatTheImageHardlyTellsApartAreTakenOutForACloserLook) {
+  show(0.0);
+  Selection selection(image_, database_, 0.1, 0.4);
+  selection.add({right_, turned_});
+  const std::vector<Candidate> ties = selection.takeTies();
+  ASSERT_EQ(ties.size(), 2u);
+  for (const Candidate& tie : ties) EXPECT_FALSE(selection.knows(tie)) << "it would stay as it was";
+  selection.add(ties);
+  EXPECT_EQ(selection.choose().size(), 1u) << "a part in full view is lost";
+}
+
+TEST_F(TurnedBarTest, WhatIsDecidedIsNotLookedAtAgain) {
+  show(5.0);
+  Selection selection(image_, database_, 0.1, 0.4);
+  selection.add({right_, turned_});
+  EXPECT_TRUE(selection.takeTies().empty());
+  EXPECT_EQ(selection.choose().size(), 1u);
+}
+
 TEST_F(SelectionTest, WhereAPoseIsLikelyButNotSureASecondLookIsTaken) {
   Selection selection(image_, database_, 0.1, 0.5);
   const double before = left();
