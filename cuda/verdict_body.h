@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cuda/block.h"
-#include "stages/check_core.h"
+#include "stages/check_surface_core.h"
 #include "stages/surface_points.h"
 
 namespace rangepose::cuda {

@@ -91,6 +91,7 @@ void Selection::insert(std::unique_ptr<Entry> entry) {
 
 void Selection::erase(const Entry* entry) {
   for (Entry* rival : entry->rivals) std::erase(rival->rivals, entry);
+  std::erase(chosen_, entry);
   std::erase_if(entries_, [&](const auto& one) { return one.get() == entry; });
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "stages/check_surface_core.h"
+
 namespace rangepose::host {
 
 CheckResult check(const Image<SurfaceTexel>& surface,

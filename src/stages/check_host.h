@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/camera.h"
+#include "geometry/mesh.h"
 #include "stages/check_core.h"
 #include "stages/surface.h"
 #include "stages/surface_points.h"

@@ -78,10 +78,8 @@ struct DepthPixels {
 
   RP_LANES Float8 operator()(const Int8& where, const Int8& u, const Int8& v) const {
     const Int8 index = pick(where, v * width + u, Int8{});
-    int at[kLanes];
-    std::memcpy(at, &index, sizeof at);
     Float8 depth;
-    for (int i = 0; i < kLanes; ++i) depth[i] = depth_mm[at[i]];
+    for (int i = 0; i < kLanes; ++i) depth[i] = depth_mm[index[i]];
     return pick(where, depth, Float8{});
   }
 };
