@@ -62,8 +62,8 @@ RP_BODY void splatPixel(const ResampleSetup& setup,
                         int height,
                         const Nearer& nearer) {
   if (depth_mm == 0.0f) return;
-  const Splat splat = splatOf(setup, u, v, depth_mm);
-  if (splat.range <= 0.0f) return;
+  const auto splat = splatOf<float>(setup, static_cast<float>(u), static_cast<float>(v), depth_mm);
+  if (!splat.drawn) return;
   unsigned int bits;
   memcpy(&bits, &splat.range, sizeof bits);
   for (int y = splat.y; y < splat.y + splat.count; ++y) {

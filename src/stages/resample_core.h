@@ -2,7 +2,7 @@
 // twin: glsl/resample.vert.
 #pragma once
 
-#include "stages/device.h"
+#include "stages/lanes.h"
 
 namespace rangepose {
 
@@ -19,41 +19,45 @@ struct ResampleSetup {
   float footprint_per_mm;  ///< width of a sensor pixel at 1 mm depth (or at all depths) [px]
 };
 
-struct Splat {
-  int x, y;     ///< first pixel covered
-  int count;    ///< pixels covered along each side; 0 when far outside of any image
-  float range;  ///< [px]
+/// Of one measured pixel (V = float) or eight (Float8), see lanes.h.
+template <typename V>
+struct SplatOf {
+  using Int = typename LanesOf<V>::Int;
+  typename LanesOf<V>::Mask drawn;  ///< in front of the camera, and not far outside of any image
+  Int x, y;                         ///< first pixel covered
+  Int count;                        ///< pixels covered along each side
+  V range;                          ///< [px]
 };
 
-/// A depth of 0 must be skipped by the caller.
-RP_HD Splat splatOf(const ResampleSetup& s, int u, int v, float depth_mm) {
-  const float reach = s.parallel != 0.0f ? 1.0f : depth_mm;
-  const float x = (static_cast<float>(u) - s.cx) * s.inv_fx * reach;
-  const float y = (static_cast<float>(v) - s.cy) * s.inv_fy * reach;
-  const float px =
-      s.rotation[0] * x + s.rotation[1] * y + s.rotation[2] * depth_mm + s.translation[0];
-  const float py =
-      s.rotation[3] * x + s.rotation[4] * y + s.rotation[5] * depth_mm + s.translation[1];
-  const float pz =
-      s.rotation[6] * x + s.rotation[7] * y + s.rotation[8] * depth_mm + s.translation[2];
-  // No image is that wide; past it the conversions below would overflow. Written so that a NaN
-  // fails too.
+/// Of whole numbers.
+template <typename V>
+RP_LANES typename LanesOf<V>::Int floored(const V& value) {
+  const auto whole = truncated(value);
+  return pick(value < asFloat(whole), whole - 1, whole);
+}
+
+/// What measured pixel (u, v) covers. A depth of 0 must be skipped by the caller.
+template <typename V>
+RP_LANES SplatOf<V> splatOf(const ResampleSetup& s, const V& u, const V& v, const V& depth_mm) {
+  using Int = typename LanesOf<V>::Int;
+  const V one = V{} + 1.0f;
+  const V reach = s.parallel != 0.0f ? one : depth_mm;
+  const V x = (u - s.cx) * s.inv_fx * reach;
+  const V y = (v - s.cy) * s.inv_fy * reach;
+  const V px = s.rotation[0] * x + s.rotation[1] * y + s.rotation[2] * depth_mm + s.translation[0];
+  const V py = s.rotation[3] * x + s.rotation[4] * y + s.rotation[5] * depth_mm + s.translation[1];
+  const V pz = s.rotation[6] * x + s.rotation[7] * y + s.rotation[8] * depth_mm + s.translation[2];
+  // No image is that wide; past it the conversions below would overflow. A NaN fails too.
   constexpr float kFarthestPx = 1.0e6f;
-  const bool near = px > -kFarthestPx && px < kFarthestPx && py > -kFarthestPx && py < kFarthestPx;
-  if (!near) return {0, 0, 0, pz};
-  const float width = s.footprint_per_mm * reach;
-  int count =
-      static_cast<int>(width) + (width > static_cast<float>(static_cast<int>(width)) ? 1 : 0);
-  if (count < 1) count = 1;
-  if (count > kMaxFootprint) count = kMaxFootprint;
+  const auto near = both(magnitude(px) < kFarthestPx, magnitude(py) < kFarthestPx);
+  const V width = pick(near, V(s.footprint_per_mm * reach), one);
+  const V most = V{} + static_cast<float>(kMaxFootprint);
+  const Int count = -floored(V(-pick(width < most, pick(width < one, one, width), most)));
   // The centre of pixel k is at k: the pixels covered are those nearest to the point.
-  const float shift = 0.5f * static_cast<float>(count - 1) - 0.5f;
-  const float left = px - shift;
-  const float top = py - shift;
-  const int x0 =
-      static_cast<int>(left) - (left < static_cast<float>(static_cast<int>(left)) ? 1 : 0);
-  const int y0 = static_cast<int>(top) - (top < static_cast<float>(static_cast<int>(top)) ? 1 : 0);
-  return {x0, y0, count, pz};
+  const V shift = 0.5f * (asFloat(count) - 1.0f) - 0.5f;
+  const V left = pick(near, V(px - shift), V{});
+  const V top = pick(near, V(py - shift), V{});
+  return {both(near, pz > 0.0f), floored(left), floored(top), count, pz};
 }
 
 }  // namespace rangepose
