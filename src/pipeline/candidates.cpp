@@ -72,16 +72,16 @@ std::vector<Candidate> takeInTurn(const Order& first,
                                   int count) {
   constexpr double kSame = 0.04;
   const double off_mm = 0.05 * object.diameter_mm;  // of a rough pose, into the floor
-  const PoseDistance distance(object);
+  PoseList known(object);
   std::vector<Candidate> kept;
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (const Candidate* candidate : {first[i], second[i]}) {
       if (static_cast<int>(kept.size()) >= count) return kept;
-      const bool known = std::any_of(kept.begin(), kept.end(), [&](const Candidate& other) {
-        return distance.below(kSame, other.rough, candidate->rough);
-      });
-      if (!known && enclosure.holds(candidate->object, candidate->rough, off_mm))
-        kept.push_back(*candidate);
+      if (known.holds(kSame, candidate->rough) ||
+          !enclosure.holds(candidate->object, candidate->rough, off_mm))
+        continue;
+      known.add(candidate->rough);
+      kept.push_back(*candidate);
     }
   }
   return kept;
@@ -187,17 +187,15 @@ std::vector<Candidate> bestDistinct(std::vector<Candidate> candidates,
   std::stable_sort(candidates.begin(),
                    candidates.end(),
                    [](const Candidate& a, const Candidate& b) { return a.rank > b.rank; });
-  const std::vector<PoseDistance> distances(database.objects.begin(), database.objects.end());
+  std::vector<PoseList> known(database.objects.begin(), database.objects.end());
   std::vector<Candidate> best;
   std::map<std::pair<int, int>, int> taken;
   for (const Candidate& candidate : candidates) {
     int& taken_here = taken[{candidate.object, candidate.window}];
     if (taken_here >= count) continue;
-    const PoseDistance& distance = distances[static_cast<std::size_t>(candidate.object)];
-    const bool known = std::any_of(best.begin(), best.end(), [&](const Candidate& other) {
-      return other.object == candidate.object && distance.below(kSame, other.pose, candidate.pose);
-    });
-    if (known) continue;
+    PoseList& of_object = known[static_cast<std::size_t>(candidate.object)];
+    if (of_object.holds(kSame, candidate.pose)) continue;
+    of_object.add(candidate.pose);
     best.push_back(candidate);
     ++taken_here;
   }

@@ -57,12 +57,32 @@ double PoseDistance::operator()(const Pose& a, const Pose& b) const {
   return least / diameter_mm_;
 }
 
-bool PoseDistance::below(double limit, const Pose& a, const Pose& b) const {
+double PoseDistance::centersWithinMm(double limit) const {
   // Symmetries leave the centre where it is (the sphere around the part has its symmetries), but
   // for what they are found to within.
   constexpr double kSlack = 0.02;
-  const double shift = glm::distance(a * center_mm_, b * center_mm_) / diameter_mm_;
-  return shift < limit + kSlack && (*this)(a, b) < limit;
+  return (limit + kSlack) * diameter_mm_;
+}
+
+bool PoseDistance::below(double limit, const Pose& a, const Pose& b) const {
+  return glm::distance(a * center_mm_, b * center_mm_) < centersWithinMm(limit) &&
+         (*this)(a, b) < limit;
+}
+
+bool PoseList::holds(double limit, const Pose& pose) const {
+  const glm::dvec3 center_mm = pose * distance_.center_mm_;
+  const double within_mm = distance_.centersWithinMm(limit);
+  for (std::size_t i = 0; i < poses_.size(); ++i) {
+    const glm::dvec3 shift = centers_mm_[i] - center_mm;
+    if (glm::dot(shift, shift) < within_mm * within_mm && distance_(poses_[i], pose) < limit)
+      return true;
+  }
+  return false;
+}
+
+void PoseList::add(const Pose& pose) {
+  poses_.push_back(pose);
+  centers_mm_.push_back(pose * distance_.center_mm_);
 }
 
 }  // namespace rangepose

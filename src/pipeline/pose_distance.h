@@ -19,10 +19,28 @@ class PoseDistance {
   bool below(double limit, const Pose& a, const Pose& b) const;
 
  private:
+  friend class PoseList;
+  /// Centres of poses that are that close are no farther apart [mm].
+  double centersWithinMm(double limit) const;
+
   glm::dvec3 center_mm_;
   double diameter_mm_;
   std::vector<glm::dvec3> points_mm_;
   std::vector<std::vector<glm::dvec3>> copies_mm_;  ///< the points in each symmetric copy
+};
+
+/// Poses of one object, none of which is to be like another.
+class PoseList {
+ public:
+  explicit PoseList(const ReferenceObject& object) : distance_(object) {}
+  /// Whether the distance of one of them is below `limit`.
+  bool holds(double limit, const Pose& pose) const;
+  void add(const Pose& pose);
+
+ private:
+  PoseDistance distance_;
+  std::vector<Pose> poses_;
+  std::vector<glm::dvec3> centers_mm_;
 };
 
 }  // namespace rangepose

@@ -79,5 +79,32 @@ TEST(PoseDistanceTest, BelowAgreesWithTheDistance) {
   }
 }
 
+// Else a duplicate is refined and reported, or a pose of its own is lost.
+TEST(PoseDistanceTest, AListHoldsWhatIsLikeAnyOfItsPoses) {
+  ReferenceObject object = objectWith({});
+  object.symmetries.discrete = {turned(object, {0.0, kPi, 0.0})};
+  const PoseDistance distance(object);
+  PoseList list(object);
+  EXPECT_FALSE(list.holds(10.0, kSomewhere));
+  std::vector<Pose> poses;
+  int held = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.1 * (i * 37 % 101);
+    Pose pose = kSomewhere * turned(object, {0.3 * t, t, -0.1 * t});
+    pose.translation_mm += glm::dvec3(t, -0.5 * t, 0.7 * t);
+    const bool known = std::any_of(poses.begin(), poses.end(), [&](const Pose& other) {
+      return distance(other, pose) < 0.08;
+    });
+    EXPECT_EQ(list.holds(0.08, pose), known) << i;
+    held += known ? 1 : 0;
+    if (known) continue;
+    poses.push_back(pose);
+    list.add(pose);
+  }
+  EXPECT_GT(held, 199) << "the poses repeat";
+  EXPECT_LT(held, 300);
+  EXPECT_GT(poses.size(), 10U);
+}
+
 }  // namespace
 }  // namespace rangepose

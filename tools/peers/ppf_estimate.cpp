@@ -22,14 +22,13 @@ std::vector<Found> different(const std::vector<Found>& found,
                              const ReferenceObject& object,
                              std::size_t count,
                              double same) {
-  const PoseDistance distance(object);
+  PoseList known(object);
   std::vector<Found> kept;
   for (const Found& one : found) {
     if (kept.size() >= count) break;
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Found& other) {
-      return distance.below(same, poseOf(other), poseOf(one));
-    });
-    if (!known) kept.push_back(one);
+    if (known.holds(same, poseOf(one))) continue;
+    known.add(poseOf(one));
+    kept.push_back(one);
   }
   return kept;
 }
