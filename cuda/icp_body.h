@@ -50,7 +50,7 @@ RP_BODY void endIteration(const IcpTask& task,
   if (!shared.done) shared.view = icpView(shared.frame, task.options, camera);
 }
 
-/// `points` are those of all tasks. `read` as in icp_points_core.h.
+/// `points` are those of all tasks. `read` as in posed_points_core.h.
 template <typename Block, typename Read>
 RP_BODY void alignPose(Block& block,
                        IcpShared& shared,
@@ -72,8 +72,8 @@ RP_BODY void alignPose(Block& block,
       PointSums own{};
       for (int i = thread; i < task.point_count; i += Block::kThreads) {
         const SurfacePoint& point = points[task.first_point + i];
-        const bool found =
-            addPoints(own.icp, shared.view, read, onePoint(point, task.options), point.rim);
+        const bool found = addPoints(
+            own.icp, shared.view, read, onePoint(point, isAligned(point, task.options)), point.rim);
         if (found) own.pairs += 1.0f;
       }
       sums[thread] = own;

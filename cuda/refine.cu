@@ -15,9 +15,8 @@ constexpr int kSurfaceThreads = 256;
 struct DepthAt {
   const float* depth_mm;
   int width;
-  __device__ float operator()(int u, int v) const { return __ldg(depth_mm + v * width + u); }
   __device__ float operator()(bool where, int u, int v) const {
-    return where ? (*this)(u, v) : 0.0f;
+    return where ? __ldg(depth_mm + v * width + u) : 0.0f;
   }
 };
 

@@ -17,7 +17,7 @@ struct PointsTask {
   CheckOptions options;
 };
 
-/// `points` are those of all tasks; `read(u, v)` reads the depth image [mm].
+/// `points` are those of all tasks; `read` as in posed_points_core.h.
 template <typename Block, typename Read>
 RP_BODY void judgeTaskPoints(Block& block,
                              const PointsTask& task,
@@ -25,17 +25,18 @@ RP_BODY void judgeTaskPoints(Block& block,
                              const Read& read,
                              const SurfacePoint* points,
                              CheckResult& answer) {
-  const Measured<Read> measured{camera, task.options.tolerance_mm, read};
-  const CheckRules rules = checkRules(task.options, kPointNormalReach);
-  typename Block::template PerThread<CheckTally> tallies;
+  const CheckRules rules = checkRules(task.options, camera, kPointNormalReach);
+  const Placement placement = placementOf(task.camera_from_object);
+  typename Block::template PerThread<PixelTally<float>> tallies;
   block.forEachThread([&](int thread) {
-    CheckTally tally;
+    PixelTally<float> tally;
     for (int i = thread; i < task.point_count; i += Block::kThreads) {
-      judgePoint(points[task.first_point + i], task.camera_from_object, measured, rules, tally);
+      const SurfacePoint& point = points[task.first_point + i];
+      judgePoints(rules, placement, read, onePoint(point, !point.rim), tally);
     }
     tallies[thread] = tally;
   });
-  block.template sum<double>(tallies, [&](const CheckTally& tally) {
+  block.template sum<float>(tallies, [&](const PixelTally<float>& tally) {
     answer = summarizeCheck(tally, task.options, 1.0, task.visible_mm2);
   });
 }
@@ -51,8 +52,8 @@ RP_BODY void judgeRendered(Block& block,
                            const Camera& camera,
                            const Read& read,
                            CheckResult& answer) {
-  const Measured<Read> measured{camera, options.tolerance_mm, read};
-  const CheckRules rules = checkRules(options, window.step > 2 ? window.step : 2);
+  const Measured<Read> measured{camera, read};
+  const CheckRules rules = checkRules(options, camera, window.step > 2 ? window.step : 2);
   const auto depth_at = [&](int x, int y) {
     const bool inside = x >= 0 && y >= 0 && x < window.width && y < window.height;
     return inside ? surface(x, y).w : 0.0f;

@@ -13,8 +13,8 @@ std::vector<std::int32_t> explainedPixels(const Image<SurfaceTexel>& surface,
                                           double same_mm) {
   std::vector<std::int32_t> pixels;
   forEachMeasured(
-      surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
-        if (std::abs(static_cast<double>(texel.w) - seen_mm) < same_mm) pixels.push_back(at);
+      surface, window, depth, [&](const SurfaceTexel& texel, float seen_mm, std::int32_t at) {
+        if (static_cast<double>(std::abs(texel.w - seen_mm)) < same_mm) pixels.push_back(at);
       });
   return pixels;
 }
@@ -23,22 +23,14 @@ JudgedPixels judgedPixels(const Image<SurfaceTexel>& surface,
                           const SurfaceWindow& window,
                           const DepthImage& depth,
                           const CheckOptions& options) {
+  const GapLimits limits = gapLimits(options);
   JudgedPixels pixels;
   forEachMeasured(
-      surface, window, depth, [&](const SurfaceTexel& texel, double seen_mm, std::int32_t at) {
-        switch (gapKind(texel, seen_mm, options)) {
-          case GapKind::kAgrees:
-            pixels.near.push_back({at, static_cast<float>(gapAlongNormal(texel, seen_mm))});
-            break;
-          case GapKind::kContradicted:
-            pixels.near.push_back({at, kSeenThrough});
-            break;
-          case GapKind::kBuried:
-            pixels.buried.push_back({at, texel.w});
-            break;
-          case GapKind::kHidden:
-            break;
-        }
+      surface, window, depth, [&](const SurfaceTexel& texel, float seen_mm, std::int32_t at) {
+        const GapOf<float> gap = gapOf(limits, true, texel.z, texel.w, seen_mm);
+        if (gap.agrees) pixels.near.push_back({at, gap.distance_mm});
+        if (gap.contradicted) pixels.near.push_back({at, kSeenThrough});
+        if (gap.buried) pixels.buried.push_back({at, texel.w});
       });
   return pixels;
 }

@@ -26,7 +26,7 @@ void forEachMeasured(const Image<SurfaceTexel>& surface,
       const float seen = depth.depth_mm.at(window.x0 + x, window.y0 + y);
       if (!(texel.w > 0.0f && seen > 0.0f)) continue;
       pixel(texel,
-            static_cast<double>(seen),
+            seen,
             static_cast<std::int32_t>((window.y0 + y) * depth.camera.width + window.x0 + x));
     }
   }

@@ -6,8 +6,7 @@
 #include "core/camera.h"
 #include "geometry/stability.h"
 #include "stages/device.h"
-#include "stages/surface.h"
-#include "stages/surface_points.h"
+#include "stages/posed_points_core.h"
 
 namespace rangepose {
 
@@ -48,177 +47,193 @@ struct CheckResult {
   double score = 0.0;          ///< 0..1, higher is better
 };
 
-/// Reads the measured surface at camera pixels: `read(u, v)` gives the depth [mm] of a pixel inside
-/// of the image, 0 where nothing was measured.
-template <typename Read>
-struct Measured {
-  const Camera& camera;
-  double tolerance_mm;
-  const Read& read;
-
-  struct Vector {
-    bool known;
-    glm::dvec3 value;
-  };
-
-  RP_HD bool inImage(int u, int v) const {
-    return u >= 0 && v >= 0 && u < camera.width && v < camera.height;
-  }
-  RP_HD double at(int u, int v) const {
-    return inImage(u, v) ? static_cast<double>(read(u, v)) : 0.0;
-  }
-
-  /// Normal towards the camera from the points `reach` pixels away; unknown where the surface ends.
-  RP_HD Vector normal(int u, int v, int reach) const {
-    const Vector across = slope(u, v, reach, 0);
-    const Vector down = slope(u, v, 0, reach);
-    if (!across.known || !down.known) return {false, glm::dvec3(0.0)};
-    return {true, glm::normalize(glm::cross(down.value, across.value))};
-  }
-
-  /// Sine of the angle between a plane and the way from one measured point to another; 1 where the
-  /// other was not measured.
-  RP_HD double riseAlong(const glm::dvec3& normal, int u, int v, int to_u, int to_v) const {
-    const double there = at(to_u, to_v);
-    if (there == 0.0) return 1.0;
-    const glm::dvec3 way = camera.unproject(to_u, to_v, there) - camera.unproject(u, v, at(u, v));
-    return std::abs(glm::dot(normal, way)) / glm::length(way);
-  }
-
-  RP_HD Vector slope(int u, int v, int du, int dv) const {
-    const double before = at(u - du, v - dv);
-    const double here = at(u, v);
-    const double after = at(u + du, v + dv);
-    // Where the surface bends by more than the tolerance it is not one surface.
-    const bool one = before != 0.0 && after != 0.0 &&
-                     !(std::abs(before + after - 2.0 * here) > 4.0 * tolerance_mm);
-    if (!one) return {false, glm::dvec3(0.0)};
-    return {true,
-            camera.unproject(u + du, v + dv, after) - camera.unproject(u - du, v - dv, before)};
-  }
+/// Sums over the pixels of a model. Nothing but one kind of number, so that a block of threads can
+/// add them up like an array.
+template <typename Number>
+struct PixelTally {
+  Number explained{};
+  Number contradicted{};
+  Number hidden{};
+  Number buried{};
+  Number missing{};
+  Number weak{};
+  Number residual_mm{};
+  Number agreeing{};
+  Number normal_x{};
+  Number normal_y{};
+  Number normal_z{};
+  Number pixels{};
 };
 
-/// Sums over the pixels of a model. Nothing but doubles, so that a block of threads can add them up
-/// like an array.
-struct CheckTally {
-  double explained = 0.0;
-  double contradicted = 0.0;
-  double hidden = 0.0;
-  double buried = 0.0;
-  double missing = 0.0;
-  double weak = 0.0;
-  double residual_mm = 0.0;
-  double agreeing = 0.0;
-  double normal_x = 0.0;
-  double normal_y = 0.0;
-  double normal_z = 0.0;
-  double pixels = 0.0;
-  double border = 0.0;
-  double border_ends = 0.0;
-  double border_covered = 0.0;
-  double visible_mm2 = 0.0;
+/// See CheckOptions.
+struct GapLimits {
+  float tolerance_mm;
+  float buried_mm;
 };
 
-/// Options, and what follows from them for all pixels.
+RP_HD GapLimits gapLimits(const CheckOptions& options) {
+  return {static_cast<float>(options.tolerance_mm),
+          static_cast<float>(options.buried_tolerances * options.tolerance_mm)};
+}
+
+/// What all pixels of a model are judged by.
 struct CheckRules {
   CheckOptions options;
-  double least_cosine;  ///< of normals of the same surface
-  int normal_reach;     ///< the data's slope is taken between points that far away [px]
+  Lens lens;
+  GapLimits limits;
+  float least_cosine;  ///< of normals of the same surface
+  int normal_reach;    ///< the data's slope is taken between points that far away [px]
 };
 
 /// `normal_reach` of points, which have no window that they were rendered with [px].
 inline constexpr int kPointNormalReach = 2;
 
-RP_HD CheckRules checkRules(const CheckOptions& options, int normal_reach) {
-  return {options, std::cos(options.max_tilt_rad), normal_reach};
+RP_HD CheckRules checkRules(const CheckOptions& options, const Camera& camera, int normal_reach) {
+  return {options,
+          lensOf(camera),
+          gapLimits(options),
+          static_cast<float>(std::cos(options.max_tilt_rad)),
+          normal_reach};
 }
 
-/// Where a model's surface lies from the data.
-enum class GapKind : int { kAgrees, kContradicted, kBuried, kHidden };
+/// Where one pixel of a model (V = float) or eight (Float8, see lanes.h) lie from the data.
+template <typename V>
+struct GapOf {
+  typename LanesOf<V>::Mask agrees, contradicted, buried, hidden;  ///< one where known
+  V distance_mm;  ///< along the model's normal: on a slope it is smaller than along the ray
+};
 
-/// Depth difference along the model's normal: on a slope it is smaller than along the ray.
-RP_HD double gapAlongNormal(const SurfaceTexel& model, double seen_mm) {
-  const double slant = static_cast<double>(std::abs(model.z));
-  return std::abs(seen_mm - static_cast<double>(model.w)) * (slant > 0.3 ? slant : 0.3);
+template <typename V>
+RP_LANES GapOf<V> gapOf(const GapLimits& limits,
+                        const typename LanesOf<V>::Mask& known,
+                        const V& normal_z,
+                        const V& model_mm,
+                        const V& seen_mm) {
+  const V slant = magnitude(normal_z);
+  const V distance = magnitude(seen_mm - model_mm) * pick(slant > 0.3f, slant, all<V>(0.3f));
+  const auto near = distance <= limits.tolerance_mm;
+  const auto off = both(known, !near);
+  const auto before = seen_mm > model_mm;
+  const auto just = distance <= limits.buried_mm;
+  return {both(known, near),
+          both(off, before),
+          both(off, both(!before, just)),
+          both(off, both(!before, !just)),
+          distance};
 }
 
-RP_HD GapKind gapKind(const SurfaceTexel& model, double seen_mm, const CheckOptions& options) {
-  const double distance = gapAlongNormal(model, seen_mm);
-  if (distance <= options.tolerance_mm) return GapKind::kAgrees;
-  if (seen_mm > static_cast<double>(model.w)) return GapKind::kContradicted;
-  const bool just = distance <= options.buried_tolerances * options.tolerance_mm;
-  return just ? GapKind::kBuried : GapKind::kHidden;
+template <typename V>
+struct PixelVerdict {
+  GapOf<V> gap;
+  typename LanesOf<V>::Mask missing;
+  V agreement;  ///< 0..1
+};
+
+/// From the point at pixel (u - du, v - dv) to that at (u + du, v + dv); unknown where the surface
+/// ends.
+template <typename V>
+struct SlopeOf {
+  typename LanesOf<V>::Mask known;
+  Lane3<V> way_mm;
+};
+
+template <typename V, typename Read>
+RP_LANES SlopeOf<V> slopeAt(const CheckRules& rules,
+                            const Read& read,
+                            const typename LanesOf<V>::Mask& wanted,
+                            const typename LanesOf<V>::Int& u,
+                            const typename LanesOf<V>::Int& v,
+                            const V& here_mm,
+                            int du,
+                            int dv) {
+  const Lens& lens = rules.lens;
+  const auto inside =
+      both(wanted, both(both(u >= du, u < lens.width - du), both(v >= dv, v < lens.height - dv)));
+  const V before = read(inside, u - du, v - dv);
+  const V after = read(inside, u + du, v + dv);
+  // Where the surface bends by more than the tolerance it is not one surface.
+  const auto one =
+      both(both(before != 0.0f, after != 0.0f),
+           magnitude(before + after - 2.0f * here_mm) <= 4.0f * rules.limits.tolerance_mm);
+  return {
+      one,
+      unprojected<V>(lens, u + du, v + dv, after) - unprojected<V>(lens, u - du, v - dv, before)};
 }
 
-/// `model` against the data at camera pixel (u, v).
-template <typename Read>
-RP_HD void judgePixel(const SurfaceTexel& model,
-                      const Measured<Read>& measured,
-                      int u,
-                      int v,
-                      const CheckRules& rules,
-                      CheckTally& tally) {
-  const CheckOptions& options = rules.options;
-  tally.pixels += 1.0;
-  const double seen = measured.at(u, v);
-  if (seen == 0.0) {
-    tally.missing += 1.0;
-    return;
-  }
-  const GapKind kind = gapKind(model, seen, options);
-  if (kind != GapKind::kAgrees) {
-    (kind == GapKind::kContradicted ? tally.contradicted
-     : kind == GapKind::kBuried     ? tally.buried
-                                    : tally.hidden) += 1.0;
-    return;
-  }
-  const double distance = gapAlongNormal(model, seen);
-  const double ratio = distance / options.tolerance_mm;
-  double agreement = 1.0 - 0.5 * ratio * ratio;
-  const typename Measured<Read>::Vector normal = measured.normal(u, v, rules.normal_reach);
-  if (normal.known && glm::dot(normal.value, glm::dvec3(model)) < rules.least_cosine) {
-    agreement *= 0.3;
-  }
-  tally.explained += agreement;
-  tally.weak += 1.0 - agreement;
-  tally.residual_mm += distance;
-  tally.agreeing += 1.0;
-  tally.normal_x += static_cast<double>(model.x);
-  tally.normal_y += static_cast<double>(model.y);
-  tally.normal_z += static_cast<double>(model.z);
+/// A model's surface at camera pixel (u, v), its normal towards the camera, against the data.
+template <typename V, typename Read>
+RP_LANES PixelVerdict<V> judgePixel(const CheckRules& rules,
+                                    const Read& read,
+                                    const typename LanesOf<V>::Mask& wanted,
+                                    const typename LanesOf<V>::Int& u,
+                                    const typename LanesOf<V>::Int& v,
+                                    const Lane3<V>& normal,
+                                    const V& depth_mm) {
+  const Lens& lens = rules.lens;
+  const auto inside =
+      both(wanted, both(both(u >= 0, u < lens.width), both(v >= 0, v < lens.height)));
+  const V seen = read(inside, u, v);
+  const auto known = both(inside, seen != 0.0f);
+  PixelVerdict<V> verdict;
+  verdict.gap = gapOf(rules.limits, known, normal.z, depth_mm, seen);
+  verdict.missing = both(wanted, !known);
+  const auto agrees = verdict.gap.agrees;
+  const V ratio = verdict.gap.distance_mm / rules.limits.tolerance_mm;
+  verdict.agreement = pick(agrees, V(1.0f - 0.5f * ratio * ratio), V{});
+  if (!anyOf(agrees)) return verdict;
+  const int reach = rules.normal_reach;
+  const SlopeOf<V> across = slopeAt<V>(rules, read, agrees, u, v, seen, reach, 0);
+  const SlopeOf<V> down = slopeAt<V>(rules, read, agrees, u, v, seen, 0, reach);
+  const Lane3<V> data = cross(down.way_mm, across.way_mm);
+  const auto tilted = dot(data, normal) < rules.least_cosine * squareRoot(dot(data, data));
+  verdict.agreement = pick(
+      both(both(across.known, down.known), tilted), V(0.3f * verdict.agreement), verdict.agreement);
+  return verdict;
 }
 
-/// One point of an object at a pose; those of a rim have no say.
-template <typename Read>
-RP_HD void judgePoint(const SurfacePoint& own,
-                      const Pose& camera_from_object,
-                      const Measured<Read>& measured,
-                      const CheckRules& rules,
-                      CheckTally& tally) {
-  if (own.rim) return;
-  const Camera& camera = measured.camera;
-  const glm::dvec3 point = camera_from_object * glm::dvec3(own.position_mm);
-  if (!camera.orthographic && point.z <= 1.0) return;
-  const glm::dvec2 projected = camera.project(point);
-  const double u = std::floor(projected.x + 0.5);
-  const double v = std::floor(projected.y + 0.5);
-  // Not "outside", so that a NaN counts as outside too.
-  if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height)) {
-    tally.pixels += 1.0;
-    tally.missing += 1.0;
-    return;
-  }
-  const glm::vec3 normal(camera_from_object.rotation * glm::dvec3(own.normal));
-  judgePixel(SurfaceTexel(normal, static_cast<float>(point.z)),
-             measured,
-             static_cast<int>(u),
-             static_cast<int>(v),
-             rules,
-             tally);
+/// Adds what was `wanted`.
+template <typename Number, typename V>
+RP_LANES void addVerdict(PixelTally<Number>& tally,
+                         const typename LanesOf<V>::Mask& wanted,
+                         const PixelVerdict<V>& verdict,
+                         const Lane3<V>& normal) {
+  const V one = all<V>(1.0f);
+  const GapOf<V>& gap = verdict.gap;
+  tally.pixels += pick(wanted, one, V{});
+  tally.missing += pick(verdict.missing, one, V{});
+  tally.contradicted += pick(gap.contradicted, one, V{});
+  tally.buried += pick(gap.buried, one, V{});
+  tally.hidden += pick(gap.hidden, one, V{});
+  tally.agreeing += pick(gap.agrees, one, V{});
+  tally.explained += verdict.agreement;
+  tally.weak += pick(gap.agrees, V(1.0f - verdict.agreement), V{});
+  tally.residual_mm += pick(gap.agrees, gap.distance_mm, V{});
+  tally.normal_x += pick(gap.agrees, normal.x, V{});
+  tally.normal_y += pick(gap.agrees, normal.y, V{});
+  tally.normal_z += pick(gap.agrees, normal.z, V{});
+}
+
+/// Points of an object; those of rims must not be wanted.
+template <typename V, typename Read>
+RP_LANES void judgePoints(const CheckRules& rules,
+                          const Placement& placement,
+                          const Read& read,
+                          const PointsOf<V>& own,
+                          PixelTally<V>& tally) {
+  const Lane3<V> point = placed(placement, own.position_mm);
+  const Lane3<V> normal = turned(placement, own.normal);
+  const PixelIn<V> pixel = pixelOf<V>(rules.lens, own.wanted, point);
+  // What is not in the image was not measured.
+  const typename LanesOf<V>::Int none = typename LanesOf<V>::Int{} - 1;
+  const typename LanesOf<V>::Int u = pick(pixel.inside, pixel.u, none);
+  const PixelVerdict<V> verdict =
+      judgePixel(rules, read, pixel.in_front, u, pixel.v, normal, point.z);
+  addVerdict(tally, pixel.in_front, verdict, normal);
 }
 
 /// Shares and score; `outline_factor` is what the outline leaves of the score.
-RP_HD CheckResult summarizeCheck(const CheckTally& tally,
+template <typename Number>
+RP_HD CheckResult summarizeCheck(const PixelTally<Number>& tally,
                                  const CheckOptions& options,
                                  double outline_factor,
                                  double visible_mm2) {

@@ -12,13 +12,38 @@
 
 namespace rangepose {
 
-/// Sums over a rendered surface. Nothing but doubles, like CheckTally.
+/// Sums over a rendered surface. Nothing but doubles, see PixelTally.
 struct SurfaceTally {
-  CheckTally pixels;
+  PixelTally<double> pixels;
+  double border = 0.0;
+  double border_ends = 0.0;
+  double border_covered = 0.0;
+  double visible_mm2 = 0.0;
   double jumps = 0.0;
   double jumps_met = 0.0;
   double jumps_missed = 0.0;
   StabilityCovariance covariance;  ///< sums
+};
+
+/// Reads the measured surface at camera pixels, see posed_points_core.h.
+template <typename Read>
+struct Measured {
+  const Camera& camera;
+  const Read& read;
+
+  RP_HD bool inImage(int u, int v) const {
+    return u >= 0 && v >= 0 && u < camera.width && v < camera.height;
+  }
+  RP_HD double at(int u, int v) const { return static_cast<double>(read(inImage(u, v), u, v)); }
+
+  /// Sine of the angle between a plane and the way from one measured point to another; 1 where the
+  /// other was not measured.
+  RP_HD double riseAlong(const glm::dvec3& normal, int u, int v, int to_u, int to_v) const {
+    const double there = at(to_u, to_v);
+    if (there == 0.0) return 1.0;
+    const glm::dvec3 way = camera.unproject(to_u, to_v, there) - camera.unproject(u, v, at(u, v));
+    return std::abs(glm::dot(normal, way)) / glm::length(way);
+  }
 };
 
 /// What a rendered surface is judged with. `surface_depth(x, y)` gives the depth of its pixel [mm],
@@ -37,11 +62,12 @@ struct RenderedSurface {
   RP_HD void judge(const SurfaceTexel& texel, int x, int y, SurfaceTally& tally) const {
     if (texel.w <= 0.0f) return;
     const double width_mm = spacingMm(texel);
-    tally.pixels.visible_mm2 += width_mm * width_mm;
-    judgePixel(texel, measured, u(x), v(y), rules, tally.pixels);
-    const double seen = measured.at(u(x), v(y));
-    if (seen != 0.0 && gapKind(texel, seen, rules.options) == GapKind::kAgrees)
-      tally.covariance.add(inRadii(texel, x, y), glm::dvec3(texel), 1.0);
+    tally.visible_mm2 += width_mm * width_mm;
+    const Lane3<float> normal{texel.x, texel.y, texel.z};
+    const PixelVerdict<float> verdict =
+        judgePixel(rules, measured.read, true, u(x), v(y), normal, texel.w);
+    addVerdict(tally.pixels, true, verdict, normal);
+    if (verdict.gap.agrees) tally.covariance.add(inRadii(texel, x, y), glm::dvec3(texel), 1.0);
     judgeBorder(texel, x, y, tally);
     const int beside = window.step < 2 ? kOut : 1;
     judgeJump(texel, x, y, beside, 0, tally);
@@ -55,7 +81,6 @@ struct RenderedSurface {
     const double tolerance_mm = rules.options.tolerance_mm;
     const double model = static_cast<double>(texel.w);
     const double inside = measured.at(u(x), v(y));
-    CheckTally& pixels = tally.pixels;
     // Behind nearer data, over holes and outside of the image nothing can be said: that counts
     // half.
     const bool covered = inside < model - tolerance_mm;
@@ -66,22 +91,22 @@ struct RenderedSurface {
       const int out_u = u(x + kOut * dx);
       const int out_v = v(y + kOut * dy);
       const double outside = measured.at(out_u, out_v);
-      pixels.border += 1.0;
+      tally.border += 1.0;
       if (covered || !measured.inImage(out_u, out_v)) {
-        pixels.border_ends += 0.5;
-        pixels.border_covered += 1.0;
+        tally.border_ends += 0.5;
+        tally.border_covered += 1.0;
         continue;
       }
       // Nearer data may cover the outline; farther or missing data ends the surface.
       if (outside == 0.0) {
-        pixels.border_ends += 1.0;
+        tally.border_ends += 1.0;
       } else if (outside > model + 1.5 * tolerance_mm) {
-        pixels.border_ends += 1.0;
+        tally.border_ends += 1.0;
         if (inside != 0.0 && inside < model + 1.5 * tolerance_mm)
           addEnd(texel, x, y, dx, dy, tally);
       } else if (outside < model - 1.5 * tolerance_mm) {
-        pixels.border_ends += 0.5;
-        pixels.border_covered += 1.0;
+        tally.border_ends += 0.5;
+        tally.border_covered += 1.0;
       } else if (inside != 0.0) {
         // Rough data bends anywhere: an edge is where it follows the model up to its outline.
         const glm::dvec3 normal(texel);
@@ -89,7 +114,7 @@ struct RenderedSurface {
         const double back_sine =
             measured.riseAlong(normal, u(x), v(y), u(x - kOut * dx), v(y - kOut * dy));
         if (out_sine > kBentSine && back_sine < kBentSine) {
-          pixels.border_ends += 1.0;
+          tally.border_ends += 1.0;
           addEnd(texel, x, y, dx, dy, tally);
         }
       }
@@ -145,19 +170,19 @@ struct RenderedSurface {
 };
 
 /// Share of the outline where the data ends with the model.
-RP_HD double outlineOf(const CheckTally& tally) {
+RP_HD double outlineOf(const SurfaceTally& tally) {
   return tally.border > 0.0 ? tally.border_ends / tally.border : 0.0;
 }
 
 /// Of a rendered surface.
 RP_HD CheckResult surfaceVerdict(const SurfaceTally& tally, const CheckOptions& options) {
   constexpr double kFewJumps = 2.0;  // of which no share is known
-  const CheckTally& pixels = tally.pixels;
-  const double outline = outlineOf(pixels);
+  const PixelTally<double>& pixels = tally.pixels;
+  const double outline = outlineOf(tally);
   CheckResult result = summarizeCheck(
-      pixels, options, 1.0 - options.border + options.border * outline, pixels.visible_mm2);
+      pixels, options, 1.0 - options.border + options.border * outline, tally.visible_mm2);
   result.outline = outline;
-  result.outline_covered = pixels.border > 0.0 ? pixels.border_covered / pixels.border : 0.0;
+  result.outline_covered = tally.border > 0.0 ? tally.border_covered / tally.border : 0.0;
   result.jumps_met = (tally.jumps_met + kFewJumps) / (tally.jumps + 2.0 * kFewJumps);
   result.jumps_missed = tally.jumps_missed / std::sqrt(pixels.pixels < 1.0 ? 1.0 : pixels.pixels);
   const double agreeing = pixels.agreeing < 1.0 ? 1.0 : pixels.agreeing;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 #include "stages/icp_points_core.h"
+#include "stages/point_lanes.h"
 
 namespace rangepose {
 
@@ -27,31 +27,10 @@ double icpShrink(const IcpOptions& options) {
 namespace host {
 namespace {
 
-/// Points of one kind, eight at a time, as plain numbers: what alignment a vector has depends on
-/// the processor that code is compiled for.
-struct Eight {
-  int wanted[kLanes];        ///< all bits or none
-  float numbers[6][kLanes];  ///< x, y, z of the position [mm] and of the normal
-};
-
-/// Likewise; the last ones are filled up with copies that are not wanted.
 struct Points {
-  std::vector<Eight> faces;
-  std::vector<Eight> rims;
+  std::vector<EightPoints> faces;
+  std::vector<EightPoints> rims;
 };
-
-void append(std::vector<Eight>& blocks, int count, const SurfacePoint& point) {
-  const int lane = count % kLanes;
-  if (lane == 0) blocks.emplace_back();
-  Eight& block = blocks.back();
-  for (int i = lane; i < kLanes; ++i) {
-    block.wanted[i] = i == lane ? -1 : 0;
-    for (int k = 0; k < 3; ++k) {
-      block.numbers[k][i] = point.position_mm[k];
-      block.numbers[3 + k][i] = point.normal[k];
-    }
-  }
-}
 
 Points inEights(const std::vector<SurfacePoint>& points, const IcpOptions& options) {
   Points result;
@@ -65,25 +44,6 @@ Points inEights(const std::vector<SurfacePoint>& points, const IcpOptions& optio
   return result;
 }
 
-RP_ALWAYS_INLINE IcpPoints<Float8> loaded(const Eight& block) {
-  const auto& n = block.numbers;
-  Int8 wanted;
-  std::memcpy(&wanted, block.wanted, sizeof wanted);
-  return {wanted, {load8(n[0]), load8(n[1]), load8(n[2])}, {load8(n[3]), load8(n[4]), load8(n[5])}};
-}
-
-struct DepthPixels {
-  const float* depth_mm;
-  int width;
-
-  RP_LANES Float8 operator()(const Int8& where, const Int8& u, const Int8& v) const {
-    const Int8 index = pick(where, v * width + u, Int8{});
-    Float8 depth;
-    for (int i = 0; i < kLanes; ++i) depth[i] = depth_mm[index[i]];
-    return pick(where, depth, Float8{});
-  }
-};
-
 /// The sums of all points, and how many have a partner.
 struct PointSums {
   IcpSumsOf<float> sums;
@@ -96,9 +56,10 @@ RP_SIMD_CLONES void addAll(const Points& points,
                            PointSums& result) {
   IcpSumsOf<Float8> sums{};
   Int8 pairs{};
-  for (const Eight& block : points.faces)
-    pairs -= addPoints(sums, view, depth, loaded(block), false);
-  for (const Eight& block : points.rims) pairs -= addPoints(sums, view, depth, loaded(block), true);
+  for (const EightPoints& block : points.faces)
+    pairs -= addPoints(sums, view, depth, block.loaded(), false);
+  for (const EightPoints& block : points.rims)
+    pairs -= addPoints(sums, view, depth, block.loaded(), true);
   for (int i = 0; i < 21; ++i) result.sums.hessian[i] = sum8(sums.hessian[i]);
   for (int i = 0; i < 6; ++i) result.sums.gradient[i] = sum8(sums.gradient[i]);
   result.sums.weight = sum8(sums.weight);

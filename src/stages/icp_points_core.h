@@ -1,22 +1,17 @@
 // What a point adds to a step of projective ICP: its partner in the depth image, or where the data
 // ends for a point of a rim (paper Sect. 7). For one point or eight at a time (lanes.h). Shared by
 // host and CUDA.
-//
-// Reads a depth image as `read(where, u, v)`: the depth [mm] of pixels inside of it, 0 where
-// nothing was measured and where `where` does not hold.
 #pragma once
 
-#include "core/camera.h"
 #include "stages/icp_core.h"
-#include "stages/lanes.h"
-#include "stages/surface_points.h"
+#include "stages/posed_points_core.h"
 
 namespace rangepose {
 
 /// What all points of an iteration share, in the numbers that they use.
 struct IcpView {
-  float turn[3][3];  ///< rows of the rotation of camera_from_object
-  float shift_mm[3];
+  Placement placement;
+  Lens lens;
   float center_mm[3];  ///< of the object's sphere, in the camera frame
   float radii_per_mm;  ///< 1 / radius of that sphere
   float reach_mm;      ///< pairs farther apart are left out
@@ -26,22 +21,13 @@ struct IcpView {
   float rim_steps;
   float rim_weight;
   float rim_gap_mm;  ///< data so far behind the rim's surface belongs to something else
-  // The camera.
-  bool orthographic;
-  float fx, fy;  ///< [px] per 1 mm aside at a depth of 1 mm, or at any depth where orthographic
-  float cx, cy;  ///< principal point [px]
-  float mm_per_px_x, mm_per_px_y;  ///< 1 / fx, 1 / fy
-  int width;                       ///< [px]
-  int height;                      ///< [px]
 };
 
 RP_HD IcpView icpView(const IcpFrame& frame, const IcpOptions& options, const Camera& camera) {
   IcpView view{};
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) view.turn[i][j] = static_cast<float>(frame.pose.rotation[j][i]);
-    view.shift_mm[i] = static_cast<float>(frame.pose.translation_mm[i]);
-    view.center_mm[i] = static_cast<float>(frame.center_mm[i]);
-  }
+  view.placement = placementOf(frame.pose);
+  view.lens = lensOf(camera);
+  for (int i = 0; i < 3; ++i) view.center_mm[i] = static_cast<float>(frame.center_mm[i]);
   view.radii_per_mm = static_cast<float>(1.0 / frame.radius_mm);
   view.reach_mm = static_cast<float>(frame.reach_mm);
   view.search_steps = options.search_steps;
@@ -50,57 +36,7 @@ RP_HD IcpView icpView(const IcpFrame& frame, const IcpOptions& options, const Ca
   view.rim_steps = static_cast<float>(options.rim_steps);
   view.rim_weight = static_cast<float>(options.rim_weight);
   view.rim_gap_mm = static_cast<float>(options.last_reach_mm);
-  view.orthographic = camera.orthographic;
-  const double fx = camera.orthographic ? 1.0 / camera.pixel_size_mm : camera.fx;
-  const double fy = camera.orthographic ? 1.0 / camera.pixel_size_mm : camera.fy;
-  view.fx = static_cast<float>(fx);
-  view.fy = static_cast<float>(fy);
-  view.cx = static_cast<float>(camera.cx);
-  view.cy = static_cast<float>(camera.cy);
-  view.mm_per_px_x = static_cast<float>(1.0 / fx);
-  view.mm_per_px_y = static_cast<float>(1.0 / fy);
-  view.width = camera.width;
-  view.height = camera.height;
   return view;
-}
-
-namespace icp_detail {
-
-template <typename V>
-RP_LANES V all(float value) {
-  return V{} + value;
-}
-
-template <typename V>
-RP_LANES Lane3<V> turned(const IcpView& view, const Lane3<V>& a) {
-  const auto& m = view.turn;
-  return {m[0][0] * a.x + m[0][1] * a.y + m[0][2] * a.z,
-          m[1][0] * a.x + m[1][1] * a.y + m[1][2] * a.z,
-          m[2][0] * a.x + m[2][1] * a.y + m[2][2] * a.z};
-}
-
-template <typename V>
-RP_LANES typename LanesOf<V>::Mask inFront(const IcpView& view, const Lane3<V>& point_mm) {
-  using Mask = typename LanesOf<V>::Mask;
-  return view.orthographic ? Mask{} == Mask{} : point_mm.z > 1.0f;
-}
-
-/// What fx's millimetre is multiplied with to be one at this depth.
-template <typename V>
-RP_LANES V spread(const IcpView& view, const V& depth_mm) {
-  return view.orthographic ? all<V>(1.0f) : depth_mm;
-}
-
-template <typename V>
-struct PixelOf {
-  V u;
-  V v;
-};
-
-template <typename V>
-RP_LANES PixelOf<V> projected(const IcpView& view, const Lane3<V>& point_mm) {
-  const V nearness = 1.0f / spread(view, point_mm.z);
-  return {point_mm.x * nearness * view.fx + view.cx, point_mm.y * nearness * view.fy + view.cy};
 }
 
 /// Relative to the centre of the object's sphere, in its radii.
@@ -110,8 +46,6 @@ RP_LANES Lane3<V> inRadii(const IcpView& view, const Lane3<V>& a) {
           (a.y - view.center_mm[1]) * view.radii_per_mm,
           (a.z - view.center_mm[2]) * view.radii_per_mm};
 }
-
-}  // namespace icp_detail
 
 template <typename V>
 struct IcpPartner {
@@ -127,10 +61,7 @@ RP_LANES void considerPixel(const IcpView& view,
                             const typename LanesOf<V>::Int& x,
                             const typename LanesOf<V>::Int& y,
                             IcpPartner<V>& nearest) {
-  const V k = icp_detail::spread(view, depth_mm);
-  const Lane3<V> candidate{(asFloat(x) - view.cx) * view.mm_per_px_x * k,
-                           (asFloat(y) - view.cy) * view.mm_per_px_y * k,
-                           depth_mm};
+  const Lane3<V> candidate = unprojected<V>(view.lens, x, y, depth_mm);
   const Lane3<V> gap = candidate - point_mm;
   const V squared = dot(gap, gap);
   const typename LanesOf<V>::Mask nearer = depth_mm != 0.0f && squared < nearest.squared_mm2;
@@ -148,24 +79,17 @@ RP_LANES IcpPartner<V> icpPartner(const IcpView& view,
                                   const Read& read,
                                   const typename LanesOf<V>::Mask& wanted,
                                   const Lane3<V>& point_mm) {
-  using namespace icp_detail;
   using Int = typename LanesOf<V>::Int;
   using Mask = typename LanesOf<V>::Mask;
   IcpPartner<V> nearest{all<V>(view.reach_mm * view.reach_mm), point_mm};
-  const Mask front = wanted && inFront(view, point_mm);
-  const Lane3<V> safe{point_mm.x, point_mm.y, pick(front, point_mm.z, all<V>(1.0f))};
-  const PixelOf<V> pixel = projected(view, safe);
-  const V u_real = pixel.u + 0.5f;
-  const V v_real = pixel.v + 0.5f;
-  // Not "outside", so that a NaN counts as outside too.
-  const Mask inside = front && u_real >= 0.0f && v_real >= 0.0f && u_real < asFloat(view.width) &&
-                      v_real < asFloat(view.height);
-  const Int u = truncated(pick(inside, u_real, V{}));
-  const Int v = truncated(pick(inside, v_real, V{}));
-  const V here = read(inside, u, v);
-  const Mask seen = inside && !(here != 0.0f && here < point_mm.z - view.reach_mm);
+  const PixelIn<V> pixel = pixelOf<V>(view.lens, wanted, point_mm);
+  const Int u = pixel.u;
+  const Int v = pixel.v;
+  const V here = read(pixel.inside, u, v);
+  const Mask seen = pixel.inside && !(here != 0.0f && here < point_mm.z - view.reach_mm);
   if (!anyOf(seen)) return nearest;
-  const V pixel_mm = spread(view, safe.z) * view.mm_per_px_x;
+  const V depth_mm = pick(pixel.in_front, point_mm.z, all<V>(1.0f));
+  const V pixel_mm = spread(view.lens, depth_mm) * view.lens.mm_per_px_x;
   considerPixel(view, point_mm, pick(seen, here, V{}), u, v, nearest);
   if (view.search_steps == 0) return nearest;
   const Int share = truncated(view.reach_mm / pixel_mm / asFloat(view.search_steps));
@@ -177,11 +101,11 @@ RP_LANES IcpPartner<V> icpPartner(const IcpView& view,
   if (!anyOf(open)) return nearest;
   for (int dv = -view.search_steps; dv <= view.search_steps; ++dv) {
     const Int y = v + dv * spacing;
-    const Mask in_row = open && y >= 0 && y < view.height;
+    const Mask in_row = open && y >= 0 && y < view.lens.height;
     for (int du = -view.search_steps; du <= view.search_steps; ++du) {
       if (du == 0 && dv == 0) continue;
       const Int x = u + du * spacing;
-      const V depth = read(in_row && x >= 0 && x < view.width, x, y);
+      const V depth = read(in_row && x >= 0 && x < view.lens.width, x, y);
       considerPixel(view, point_mm, depth, x, y, nearest);
     }
   }
@@ -206,28 +130,28 @@ RP_LANES RimPartner<V> rimPartner(const IcpView& view,
                                   const Lane3<V>& point_mm,
                                   const Lane3<V>& out,
                                   const V& across) {
-  using namespace icp_detail;
   using Int = typename LanesOf<V>::Int;
   using Mask = typename LanesOf<V>::Mask;
   RimPartner<V> nearest{Mask{}, all<V>(view.rim_reach_mm)};
-  const Mask usable = wanted && inFront(view, point_mm) && across > 0.1f;
+  const Mask usable = wanted && inFront(view.lens, point_mm) && across > 0.1f;
   const Lane3<V> point{point_mm.x, point_mm.y, pick(usable, point_mm.z, all<V>(1.0f))};
   // A pixel or more a step. Over so short a way the line's image is taken as evenly spaced.
-  const V pixel_mm = spread(view, point.z) * view.mm_per_px_x;
+  const V pixel_mm = spread(view.lens, point.z) * view.lens.mm_per_px_x;
   const V share_mm = all<V>(view.rim_reach_mm / view.rim_steps);
   const V step_mm = pick(pixel_mm < share_mm, share_mm, pixel_mm);
   const V scale = step_mm / pick(usable, across, all<V>(1.0f));
   const Lane3<V> next{point.x + out.x * scale, point.y + out.y * scale, point.z + out.z * scale};
-  const PixelOf<V> pixel = projected(view, point);
-  const PixelOf<V> pixel_next = projected(view, next);
+  const PixelOf<V> pixel = projected(view.lens, point);
+  const PixelOf<V> pixel_next = projected(view.lens, next);
   const V du = pixel_next.u - pixel.u;
   const V dv = pixel_next.v - pixel.v;
   const V reach_steps = view.rim_reach_mm / step_mm;
   const V u_margin = (reach_steps + 3.0f) * magnitude(du) + 0.5f;
   const V v_margin = (reach_steps + 3.0f) * magnitude(dv) + 0.5f;
   // Not "outside", so that a NaN counts as outside too.
-  Mask running = usable && pixel.u > u_margin && pixel.u < asFloat(view.width - 1) - u_margin &&
-                 pixel.v > v_margin && pixel.v < asFloat(view.height - 1) - v_margin;
+  Mask running = usable && pixel.u > u_margin &&
+                 pixel.u < asFloat(view.lens.width - 1) - u_margin && pixel.v > v_margin &&
+                 pixel.v < asFloat(view.lens.height - 1) - v_margin;
   // At least the reach, in whole steps.
   const Int steps = truncated(pick(running, reach_steps, V{})) + 2;
   const V line_step = out.z * scale;
@@ -275,13 +199,12 @@ RP_LANES typename LanesOf<V>::Mask addRim(IcpSumsOf<V>& sums,
                                           const typename LanesOf<V>::Mask& wanted,
                                           const Lane3<V>& point_mm,
                                           const Lane3<V>& out) {
-  using namespace icp_detail;
   const V across = squareRoot(out.x * out.x + out.y * out.y);
   const RimPartner<V> partner = rimPartner(view, read, wanted, point_mm, out, across);
   if (!anyOf(partner.found)) return partner.found;
   const V length = pick(partner.found, across, all<V>(1.0f));
   Lane3<V> n{out.x / length, out.y / length, V{}};
-  if (!view.orthographic) {
+  if (!view.lens.orthographic) {
     const V depth_mm = pick(partner.found, point_mm.z, all<V>(1.0f));
     n.z = -(n.x * point_mm.x + n.y * point_mm.y) / depth_mm;
   }
@@ -304,7 +227,6 @@ RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<V>& sums,
                                            const typename LanesOf<V>::Mask& wanted,
                                            const Lane3<V>& point_mm,
                                            const Lane3<V>& normal) {
-  using namespace icp_detail;
   const IcpPartner<V> partner = icpPartner(view, read, wanted, point_mm);
   const float squared_reach = view.reach_mm * view.reach_mm;
   const V rest = 1.0f - partner.squared_mm2 / squared_reach;
@@ -317,22 +239,12 @@ RP_LANES typename LanesOf<V>::Mask addFace(IcpSumsOf<V>& sums,
   return partner.squared_mm2 < squared_reach;
 }
 
-/// Points of the object, in its frame.
-template <typename V>
-struct IcpPoints {
-  typename LanesOf<V>::Mask wanted;
-  Lane3<V> position_mm;
-  Lane3<V> normal;  ///< see SurfacePoint
-};
-
 /// Adds points with their partners, and says which have one. All are of rims, or none is.
 template <typename V, typename Read>
 RP_LANES typename LanesOf<V>::Mask addPoints(
-    IcpSumsOf<V>& sums, const IcpView& view, const Read& read, const IcpPoints<V>& own, bool rim) {
-  const Lane3<V> turned = icp_detail::turned(view, own.position_mm);
-  const Lane3<V> point{
-      turned.x + view.shift_mm[0], turned.y + view.shift_mm[1], turned.z + view.shift_mm[2]};
-  const Lane3<V> normal = icp_detail::turned(view, own.normal);
+    IcpSumsOf<V>& sums, const IcpView& view, const Read& read, const PointsOf<V>& own, bool rim) {
+  const Lane3<V> point = placed(view.placement, own.position_mm);
+  const Lane3<V> normal = turned(view.placement, own.normal);
   return rim ? addRim(sums, view, read, own.wanted, point, normal)
              : addFace(sums, view, read, own.wanted, point, normal);
 }
@@ -340,13 +252,6 @@ RP_LANES typename LanesOf<V>::Mask addPoints(
 /// Whether a point can have a partner at all.
 RP_HD bool isAligned(const SurfacePoint& point, const IcpOptions& options) {
   return !point.rim || options.rim_reach_mm > 0.0;
-}
-
-/// One point for addPoints.
-RP_HD IcpPoints<float> onePoint(const SurfacePoint& point, const IcpOptions& options) {
-  return {isAligned(point, options),
-          {point.position_mm.x, point.position_mm.y, point.position_mm.z},
-          {point.normal.x, point.normal.y, point.normal.z}};
 }
 
 }  // namespace rangepose

@@ -82,6 +82,11 @@ RP_LANES Int8 either(const Int8& a, const Int8& b) { return a | b; }
 
 #endif
 
+template <typename V>
+RP_LANES V all(float value) {
+  return V{} + value;
+}
+
 /// Three coordinates.
 template <typename V>
 struct Lane3 {

@@ -81,14 +81,16 @@ class ThreadedRefineTest : public testing::Test {
  protected:
   ThreadedRefineTest() : scene_(1, false), points_(pointsOfView(scene_.object, 0, 150)) {}
 
-  float read(int u, int v) const { return scene_.depth.depth_mm.at(u, v); }
+  float read(bool where, int u, int v) const {
+    return where ? scene_.depth.depth_mm.at(u, v) : 0.0f;
+  }
 
   test::RefineScene scene_;
   std::vector<SurfacePoint> points_;
 };
 
 TEST_F(ThreadedRefineTest, TheAlignmentOfAPose) {
-  const auto read_depth = [&](bool where, int u, int v) { return where ? read(u, v) : 0.0f; };
+  const auto read_depth = [&](bool where, int u, int v) { return read(where, u, v); };
   const Camera& camera = scene_.depth.camera;
   const cuda::IcpTask task = scene_.icpTask(points_, {});
   cuda::IcpShared shared{};
@@ -106,7 +108,7 @@ TEST_F(ThreadedRefineTest, TheAlignmentOfAPose) {
 }
 
 TEST_F(ThreadedRefineTest, TheVerdictOnAPose) {
-  const auto read_depth = [&](int u, int v) { return read(u, v); };
+  const auto read_depth = [&](bool where, int u, int v) { return read(where, u, v); };
   cuda::PointsTask task;
   task.point_count = static_cast<int>(points_.size());
   task.camera_from_object = scene_.truth;

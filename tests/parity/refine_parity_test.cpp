@@ -85,8 +85,8 @@ TEST_P(RefineParity, PointsAreJudgedAlike) {
   ASSERT_EQ(actual.size(), tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     EXPECT_EQ(actual[i].pixels, expected[i].pixels);
-    EXPECT_NEAR(actual[i].score, expected[i].score, test::kVerdict);
-    EXPECT_NEAR(actual[i].residual_mm, expected[i].residual_mm, test::kVerdict);
+    EXPECT_NEAR(actual[i].score, expected[i].score, test::kPointVerdict);
+    EXPECT_NEAR(actual[i].residual_mm, expected[i].residual_mm, test::kPointVerdict);
   }
 }
 

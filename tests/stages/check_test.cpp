@@ -69,7 +69,7 @@ TEST(CheckTest, ThePerfectPoseScoresNearlyOne) {
     // Slopes measured across a crease belong to neither face.
     EXPECT_GT(result.explained, 0.95);
     EXPECT_LT(result.residual_mm, 0.05);
-    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
   }
   EXPECT_GT(bench.check(bench.truth).outline, 0.95);
 }
@@ -106,7 +106,7 @@ TEST(CheckTest, SurfaceInFrontOfTheDataIsContradicted) {
        {bench.check(bench.moved({0, 0, -20})), bench.checkPoints(bench.moved({0, 0, -20}))}) {
     EXPECT_GT(result.contradicted, 0.9);
     EXPECT_LT(result.score, 0.1) << "a gripper would close in the air";
-    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
   }
 }
 
@@ -117,7 +117,7 @@ TEST(CheckTest, SurfaceWellBehindNearerDataIsHidden) {
     EXPECT_GT(result.hidden, 0.9);
     EXPECT_EQ(result.explained, 0.0);
     EXPECT_EQ(result.score, 0.0) << "nothing of this part is seen";
-    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
   }
 }
 
@@ -126,7 +126,7 @@ TEST(CheckTest, SurfaceJustBehindTheDataIsBuried) {
   const CheckResult result = bench.check(bench.moved({0, 0, 7}));
   EXPECT_GT(result.buried, 0.7);
   EXPECT_LT(result.score, 0.2);
-  EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+  EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
 }
 
 TEST(CheckTest, SurfaceOverHolesIsMissing) {
@@ -135,7 +135,7 @@ TEST(CheckTest, SurfaceOverHolesIsMissing) {
   for (const CheckResult& result : {bench.check(bench.truth), bench.checkPoints(bench.truth)}) {
     EXPECT_GT(result.missing, 0.99);
     EXPECT_EQ(result.score, 0.0);
-    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
   }
 }
 
@@ -151,7 +151,7 @@ TEST(CheckTest, EachKindOfFaultCostsScore) {
       }
     }
     const CheckResult result = other.check(other.truth);
-    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-9);
+    EXPECT_NEAR(sumOfShares(result), 1.0, 1e-6);
     return result;
   };
   const CheckResult hole = spoil([](float) { return 0.0f; });

@@ -24,6 +24,8 @@ inline constexpr double kAlignedMm = 2.0e-4;
 inline constexpr double kAlignedSurfaceMm = 0.5;
 /// Shares, scores and residuals [mm] of a verdict: sums of a few thousand doubles in another order.
 inline constexpr double kVerdict = 1.0e-12;
+/// The same on points: sums of a few hundred floats in another order.
+inline constexpr double kPointVerdict = 1.0e-6;
 
 /// Depth of a rendered face [mm] at 500-700 mm: GL interpolates in float and moves corners to 1/256
 /// px.
