@@ -31,7 +31,9 @@ CheckResult check(const Image<SurfaceTexel>& surface,
 
 namespace {
 
-PixelTally<float> sumOfLanes(const PixelTally<Float8>& lanes) {
+// Inline: called from code for AVX, the compiler leaves the upper halves of registers in use after
+// it, which slows down all SSE code to come.
+RP_ALWAYS_INLINE PixelTally<float> sumOfLanes(const PixelTally<Float8>& lanes) {
   constexpr int kNumbers = static_cast<int>(sizeof(PixelTally<float>) / sizeof(float));
   Float8 from[kNumbers];
   static_assert(sizeof from == sizeof lanes);

@@ -28,7 +28,9 @@ class ExplainedPixelsTest : public testing::Test {
     for (int x = 0; x < window_.width; ++x)
       image_.depth_mm.at(window_.x0 + x, window_.y0 + y) = 500.0f + off_mm;
   }
-  std::vector<NearPixel> near() const { return judgedPixels(surface_, window_, image_, options_).near; }
+  std::vector<NearPixel> near() const {
+    return judgedPixels(surface_, window_, image_, options_).near;
+  }
 
   DepthImage image_;
   SurfaceWindow window_;
