@@ -128,14 +128,15 @@ class Estimator {
     return copies;
   }
 
-  /// Looks closer at poses that are as likely as their rivals, or nearly.
-  void settleTies(Selection& selection) {
+  /// Looks closer at poses that are as likely as their rivals, or nearly. False if there are none.
+  bool settleTies(Selection& selection) {
     const ScopedTimer timer(result_.times, "ties");
     std::vector<Candidate> ties = selection.takeTies();
-    if (ties.empty()) return;
+    if (ties.empty()) return false;
     const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
     refineTies(ties, database_, scene);
     selection.add(ties);
+    return true;
   }
 
  private:
@@ -345,8 +346,8 @@ Estimate estimatePoses(const DepthImage& measured,
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;
   }
-  estimator.settleTies(selection);
-  for (const Candidate& candidate : selection.choose()) {
+  if (estimator.settleTies(selection)) chosen = selection.choose();
+  for (const Candidate& candidate : chosen) {
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
     result.poses.push_back(estimateOf(candidate));
   }

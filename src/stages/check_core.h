@@ -148,7 +148,7 @@ RP_LANES SlopeOf<V> slopeAt(const CheckRules& rules,
                             int dv) {
   const Lens& lens = rules.lens;
   const auto inside =
-      both(wanted, both(both(u >= du, u < lens.width - du), both(v >= dv, v < lens.height - dv)));
+      both(wanted, both(inImage<V>(lens, u - du, v - dv), inImage<V>(lens, u + du, v + dv)));
   const V before = read(inside, u - du, v - dv);
   const V after = read(inside, u + du, v + dv);
   // Where the surface bends by more than the tolerance it is not one surface.
@@ -169,9 +169,7 @@ RP_LANES PixelVerdict<V> judgePixel(const CheckRules& rules,
                                     const typename LanesOf<V>::Int& v,
                                     const Lane3<V>& normal,
                                     const V& depth_mm) {
-  const Lens& lens = rules.lens;
-  const auto inside =
-      both(wanted, both(both(u >= 0, u < lens.width), both(v >= 0, v < lens.height)));
+  const auto inside = both(wanted, inImage<V>(rules.lens, u, v));
   const V seen = read(inside, u, v);
   const auto known = both(inside, seen != 0.0f);
   PixelVerdict<V> verdict;
@@ -222,7 +220,7 @@ RP_LANES void judgePoints(const CheckRules& rules,
                           PixelTally<V>& tally) {
   const Lane3<V> point = placed(placement, own.position_mm);
   const Lane3<V> normal = turned(placement, own.normal);
-  const PixelIn<V> pixel = pixelOf<V>(rules.lens, own.wanted, point);
+  const PixelOf<V> pixel = pixelOf<V>(rules.lens, own.wanted, point);
   // What is not in the image was not measured.
   const typename LanesOf<V>::Int none = typename LanesOf<V>::Int{} - 1;
   const typename LanesOf<V>::Int u = pick(pixel.inside, pixel.u, none);

@@ -31,20 +31,6 @@ CheckResult check(const Image<SurfaceTexel>& surface,
 
 namespace {
 
-// Inline: called from code for AVX, the compiler leaves the upper halves of registers in use after
-// it, which slows down all SSE code to come.
-RP_ALWAYS_INLINE PixelTally<float> sumOfLanes(const PixelTally<Float8>& lanes) {
-  constexpr int kNumbers = static_cast<int>(sizeof(PixelTally<float>) / sizeof(float));
-  Float8 from[kNumbers];
-  static_assert(sizeof from == sizeof lanes);
-  std::memcpy(from, &lanes, sizeof from);
-  float to[kNumbers];
-  for (int i = 0; i < kNumbers; ++i) to[i] = sum8(from[i]);
-  PixelTally<float> sums;
-  std::memcpy(&sums, to, sizeof sums);
-  return sums;
-}
-
 RP_SIMD_CLONES void judgeAll(const std::vector<SurfacePoint>& points,
                              const CheckRules& rules,
                              const Placement& placement,
@@ -53,8 +39,8 @@ RP_SIMD_CLONES void judgeAll(const std::vector<SurfacePoint>& points,
   PixelTally<Float8> tally;
   for (std::size_t next = 0; next < points.size();) {
     EightPoints eight;
-    for (int lane = 0; lane < kLanes && next < points.size(); ++next) {
-      if (!points[next].rim) eight.set(lane++, points[next]);
+    for (; !eight.full() && next < points.size(); ++next) {
+      if (!points[next].rim) eight.add(points[next]);
     }
     judgePoints(rules, placement, read, eight.loaded(), tally);
   }

@@ -35,11 +35,9 @@ struct Points {
 Points inEights(const std::vector<SurfacePoint>& points, const IcpOptions& options) {
   Points result;
   result.faces.reserve(points.size() / kLanes + 1);
-  int faces = 0;
-  int rims = 0;
   for (const SurfacePoint& point : points) {
     if (!isAligned(point, options)) continue;
-    append(point.rim ? result.rims : result.faces, point.rim ? rims++ : faces++, point);
+    append(point.rim ? result.rims : result.faces, point);
   }
   return result;
 }
@@ -60,10 +58,7 @@ RP_SIMD_CLONES void addAll(const Points& points,
     pairs -= addPoints(sums, view, depth, block.loaded(), false);
   for (const EightPoints& block : points.rims)
     pairs -= addPoints(sums, view, depth, block.loaded(), true);
-  for (int i = 0; i < 21; ++i) result.sums.hessian[i] = sum8(sums.hessian[i]);
-  for (int i = 0; i < 6; ++i) result.sums.gradient[i] = sum8(sums.gradient[i]);
-  result.sums.weight = sum8(sums.weight);
-  result.sums.squared = sum8(sums.squared);
+  result.sums = sumOfLanes(sums);
   result.pairs = 0;
   for (int i = 0; i < kLanes; ++i) result.pairs += pairs[i];
 }

@@ -82,7 +82,7 @@ RP_LANES IcpPartner<V> icpPartner(const IcpView& view,
   using Int = typename LanesOf<V>::Int;
   using Mask = typename LanesOf<V>::Mask;
   IcpPartner<V> nearest{all<V>(view.reach_mm * view.reach_mm), point_mm};
-  const PixelIn<V> pixel = pixelOf<V>(view.lens, wanted, point_mm);
+  const PixelOf<V> pixel = pixelOf<V>(view.lens, wanted, point_mm);
   const Int u = pixel.u;
   const Int v = pixel.v;
   const V here = read(pixel.inside, u, v);
@@ -141,8 +141,8 @@ RP_LANES RimPartner<V> rimPartner(const IcpView& view,
   const V step_mm = pick(pixel_mm < share_mm, share_mm, pixel_mm);
   const V scale = step_mm / pick(usable, across, all<V>(1.0f));
   const Lane3<V> next{point.x + out.x * scale, point.y + out.y * scale, point.z + out.z * scale};
-  const PixelOf<V> pixel = projected(view.lens, point);
-  const PixelOf<V> pixel_next = projected(view.lens, next);
+  const ImagePoint<V> pixel = projected(view.lens, point);
+  const ImagePoint<V> pixel_next = projected(view.lens, next);
   const V du = pixel_next.u - pixel.u;
   const V dv = pixel_next.v - pixel.v;
   const V reach_steps = view.rim_reach_mm / step_mm;

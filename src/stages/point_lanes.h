@@ -12,12 +12,14 @@ namespace rangepose::host {
 /// depends on the processor that code is compiled for.
 class EightPoints {
  public:
-  void set(int lane, const SurfacePoint& point) {
-    wanted_[lane] = -1;
+  bool full() const { return count_ == kLanes; }
+  void add(const SurfacePoint& point) {
+    wanted_[count_] = -1;
     for (int k = 0; k < 3; ++k) {
-      numbers_[k][lane] = point.position_mm[k];
-      numbers_[3 + k][lane] = point.normal[k];
+      numbers_[k][count_] = point.position_mm[k];
+      numbers_[3 + k][count_] = point.normal[k];
     }
+    ++count_;
   }
   RP_ALWAYS_INLINE PointsOf<Float8> loaded() const {
     const auto& n = numbers_;
@@ -28,15 +30,14 @@ class EightPoints {
   }
 
  private:
+  int count_ = 0;
   int wanted_[kLanes] = {};        ///< all bits or none
   float numbers_[6][kLanes] = {};  ///< x, y, z of the position [mm] and of the normal
 };
 
-/// Adds the point that is the `count`th.
-inline void append(std::vector<EightPoints>& blocks, int count, const SurfacePoint& point) {
-  const int lane = count % kLanes;
-  if (lane == 0) blocks.emplace_back();
-  blocks.back().set(lane, point);
+inline void append(std::vector<EightPoints>& blocks, const SurfacePoint& point) {
+  if (blocks.empty() || blocks.back().full()) blocks.emplace_back();
+  blocks.back().add(point);
 }
 
 /// See posed_points_core.h.

@@ -88,6 +88,13 @@ RP_LANES typename LanesOf<V>::Mask inFront(const Lens& lens, const Lane3<V>& poi
   return lens.orthographic ? Mask{} == Mask{} : point_mm.z > 1.0f;
 }
 
+template <typename V>
+RP_LANES typename LanesOf<V>::Mask inImage(const Lens& lens,
+                                           const typename LanesOf<V>::Int& u,
+                                           const typename LanesOf<V>::Int& v) {
+  return both(both(u >= 0, u < lens.width), both(v >= 0, v < lens.height));
+}
+
 /// What fx's millimetre is multiplied with to be one at this depth.
 template <typename V>
 RP_LANES V spread(const Lens& lens, const V& depth_mm) {
@@ -95,14 +102,14 @@ RP_LANES V spread(const Lens& lens, const V& depth_mm) {
 }
 
 template <typename V>
-struct PixelOf {
+struct ImagePoint {
   V u;
   V v;
 };
 
 /// Of a point in front of the camera.
 template <typename V>
-RP_LANES PixelOf<V> projected(const Lens& lens, const Lane3<V>& point_mm) {
+RP_LANES ImagePoint<V> projected(const Lens& lens, const Lane3<V>& point_mm) {
   const V nearness = 1.0f / spread(lens, point_mm.z);
   return {point_mm.x * nearness * lens.fx + lens.cx, point_mm.y * nearness * lens.fy + lens.cy};
 }
@@ -121,20 +128,20 @@ RP_LANES Lane3<V> unprojected(const Lens& lens,
 
 /// The pixel that shows a point, where it is `wanted`, in front of the camera and in the image.
 template <typename V>
-struct PixelIn {
+struct PixelOf {
   typename LanesOf<V>::Mask in_front;
   typename LanesOf<V>::Mask inside;
   typename LanesOf<V>::Int u, v;
 };
 
 template <typename V>
-RP_LANES PixelIn<V> pixelOf(const Lens& lens,
+RP_LANES PixelOf<V> pixelOf(const Lens& lens,
                             const typename LanesOf<V>::Mask& wanted,
                             const Lane3<V>& point_mm) {
-  PixelIn<V> result;
+  PixelOf<V> result;
   result.in_front = both(wanted, inFront(lens, point_mm));
   const Lane3<V> safe{point_mm.x, point_mm.y, pick(result.in_front, point_mm.z, all<V>(1.0f))};
-  const PixelOf<V> pixel = projected(lens, safe);
+  const ImagePoint<V> pixel = projected(lens, safe);
   const V u = pixel.u + 0.5f;
   const V v = pixel.v + 0.5f;
   // Not "outside", so that a NaN counts as outside too.

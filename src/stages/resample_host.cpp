@@ -52,7 +52,7 @@ struct EightPixels {
 };
 
 /// The last pixels of a row, fewer than eight.
-EightPixels lastPixels(const float* depth, const std::uint8_t* kept, int count) {
+RP_ALWAYS_INLINE EightPixels lastPixels(const float* depth, const std::uint8_t* kept, int count) {
   float depths[kLanes] = {};
   std::uint8_t keep[kLanes] = {};
   std::copy_n(depth, count, depths);
@@ -61,12 +61,12 @@ EightPixels lastPixels(const float* depth, const std::uint8_t* kept, int count) 
 }
 
 /// Of one pixel: what it covers, however much.
-void draw(const SplatOf<Float8>& splat, int lane, Image<float>& range) {
-  const int y1 = std::min(splat.y[lane] + splat.count[lane], range.height());
-  const int x1 = std::min(splat.x[lane] + splat.count[lane], range.width());
-  for (int y = std::max(splat.y[lane], 0); y < y1; ++y) {
-    for (int x = std::max(splat.x[lane], 0); x < x1; ++x)
-      range.at(x, y) = std::min(range.at(x, y), splat.range[lane]);
+void draw(const SplatOf<float>& splat, Image<float>& range) {
+  const int y1 = std::min(splat.y + splat.count, range.height());
+  const int x1 = std::min(splat.x + splat.count, range.width());
+  for (int y = std::max(splat.y, 0); y < y1; ++y) {
+    for (int x = std::max(splat.x, 0); x < x1; ++x)
+      range.at(x, y) = std::min(range.at(x, y), splat.range);
   }
 }
 
@@ -104,7 +104,8 @@ RP_SIMD_CLONES void drawRow(const ResampleSetup& setup,
       continue;
     }
     for (int i = 0; i < kLanes; ++i) {
-      if (wanted[i] != 0) draw(splat, i, range);
+      if (wanted[i] != 0)
+        draw({true, splat.x[i], splat.y[i], splat.count[i], splat.range[i]}, range);
     }
   }
 }

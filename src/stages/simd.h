@@ -3,7 +3,8 @@
 
 #include <cstring>
 
-// Vectors are only ever passed between inlined functions: no ABI is involved.
+// Vectors are only ever passed between inlined functions: no ABI is involved, and no code for AVX
+// leaves the upper halves of registers in use, which would slow down all SSE code to come.
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wpsabi"
 #endif
@@ -32,6 +33,20 @@ RP_ALWAYS_INLINE Float8 splat8(float value) { return Float8{} + value; }
 template <typename Eight>
 RP_ALWAYS_INLINE auto sum8(const Eight& v) {
   return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+}
+
+/// Of all numbers of a struct of nothing but Float8, as the same struct of floats.
+template <template <typename> typename Numbers>
+RP_ALWAYS_INLINE Numbers<float> sumOfLanes(const Numbers<Float8>& lanes) {
+  constexpr int kNumbers = static_cast<int>(sizeof(Numbers<float>) / sizeof(float));
+  Float8 from[kNumbers];
+  static_assert(sizeof from == sizeof lanes);
+  std::memcpy(from, &lanes, sizeof from);
+  float to[kNumbers];
+  for (int i = 0; i < kNumbers; ++i) to[i] = sum8(from[i]);
+  Numbers<float> sums;
+  std::memcpy(&sums, to, sizeof sums);
+  return sums;
 }
 
 }  // namespace rangepose
