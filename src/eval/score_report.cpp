@@ -59,9 +59,9 @@ std::string pickingTable(const std::vector<ScoreRow>& rows, const PickingOptions
                    percent(p.precision),
                    plain(p.average_precision, 3),
                    percent(p.recall_at_99),
-                   percent(p.median_mssd, 2),
-                   plain(degrees(p.median_rotation_rad), 2),
-                   plain(p.median_translation_mm, 2));
+                   percent(p.median_mssd, 3),
+                   plain(degrees(p.median_rotation_rad), 3),
+                   plain(p.median_translation_mm, 3));
   }
   return text;
 }

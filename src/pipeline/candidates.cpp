@@ -131,13 +131,13 @@ CheckOptions glanceOptionsFor(const ReferenceObject& object, double noise_mm) {
 RenderTask surfaceTask(const ReferenceObject& object,
                        const Pose& camera_from_object,
                        const Camera& camera,
-                       double noise_mm) {
-  constexpr int kRenderPx = 112;
+                       double noise_mm,
+                       int most_px) {
   RenderTask task;
   task.mesh = &object.mesh;
   task.camera_from_object = camera_from_object;
   task.window =
-      wholeWindowAround(camera, camera_from_object * object.center_mm, object.radius_mm, kRenderPx);
+      wholeWindowAround(camera, camera_from_object * object.center_mm, object.radius_mm, most_px);
   task.center_mm = object.center_mm;
   task.radius_mm = object.radius_mm;
   task.check = checkOptionsFor(object, noise_mm);

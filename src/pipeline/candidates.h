@@ -9,11 +9,16 @@ namespace rangepose {
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm);
 /// The check of a pose before its alignment, with a tolerance as wide as such a pose is wrong.
 CheckOptions glanceOptionsFor(const ReferenceObject& object, double noise_mm);
-/// What the camera would see of the posed object, to be judged, or aligned once the task says how.
+
+/// Enough of a surface to be judged by [px].
+inline constexpr int kRenderPx = 112;
+/// What the camera would see of the posed object, to be judged, or aligned once the task says how;
+/// in a window of at most `most_px` a side.
 RenderTask surfaceTask(const ReferenceObject& object,
                        const Pose& camera_from_object,
                        const Camera& camera,
-                       double noise_mm);
+                       double noise_mm,
+                       int most_px = kRenderPx);
 
 /// Of a view: enough for a glance at many poses.
 inline constexpr int kFewPoints = 40;

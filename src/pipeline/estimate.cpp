@@ -128,15 +128,17 @@ class Estimator {
     return copies;
   }
 
-  /// Looks closer at poses that are as likely as their rivals, or nearly. False if there are none.
-  bool settleTies(Selection& selection) {
-    const ScopedTimer timer(result_.times, "ties");
-    std::vector<Candidate> ties = selection.takeTies();
-    if (ties.empty()) return false;
+  /// Brings the chosen poses to rest, after a closer look at those that are as likely as their
+  /// rivals, or nearly, and at these.
+  void settleChosen(Selection& selection) {
+    const ScopedTimer timer(result_.times, "settle");
     const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
-    refineTies(ties, database_, scene);
-    selection.add(ties);
-    return true;
+    std::vector<Candidate> candidates = selection.takeTies();
+    refineTies(candidates, database_, scene);
+    const std::vector<Candidate> others = selection.takeChosen();
+    candidates.insert(candidates.end(), others.begin(), others.end());
+    settle(candidates, database_, scene);
+    selection.add(candidates);
   }
 
  private:
@@ -346,8 +348,8 @@ Estimate estimatePoses(const DepthImage& measured,
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;
   }
-  if (estimator.settleTies(selection)) chosen = selection.choose();
-  for (const Candidate& candidate : chosen) {
+  estimator.settleChosen(selection);
+  for (const Candidate& candidate : selection.choose()) {
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
     result.poses.push_back(estimateOf(candidate));
   }

@@ -223,18 +223,9 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
   return still_moving;
 }
 
-/// Aligns all until they rest, then checks them.
-void refineAll(std::vector<Candidate>& candidates,
-               const ReferenceDatabase& database,
-               const RefineScene& scene,
-               const FineRounds& fine) {
-  constexpr double kLaterReach = 1.5;  // tolerances
-  std::vector<std::size_t> moving(candidates.size());
-  std::iota(moving.begin(), moving.end(), std::size_t{0});
-  for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
-    const double reach = round == 0 ? fine.first_reach : kLaterReach;
-    moving = alignSurfaces(candidates, moving, database, scene, fine, reach);
-  }
+void checkAll(std::vector<Candidate>& candidates,
+              const ReferenceDatabase& database,
+              const RefineScene& scene) {
   std::vector<RenderTask> tasks;
   tasks.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
@@ -251,14 +242,27 @@ void refineAll(std::vector<Candidate>& candidates,
       candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);
 }
 
+/// Aligns all until they rest, then checks them.
+void refineAll(std::vector<Candidate>& candidates,
+               const ReferenceDatabase& database,
+               const RefineScene& scene,
+               const FineRounds& fine) {
+  constexpr double kLaterReach = 1.5;  // tolerances
+  std::vector<std::size_t> moving(candidates.size());
+  std::iota(moving.begin(), moving.end(), std::size_t{0});
+  for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
+    const double reach = round == 0 ? fine.first_reach : kLaterReach;
+    moving = alignSurfaces(candidates, moving, database, scene, fine, reach);
+  }
+  checkAll(candidates, database, scene);
+}
+
 /// Where little holds a pose, it may drift off: then it stays.
-void refineUnlessWorse(std::vector<Candidate>& candidates,
-                       const ReferenceDatabase& database,
-                       const RefineScene& scene,
-                       const FineRounds& fine) {
+template <typename Refine>
+void unlessWorse(std::vector<Candidate>& candidates, const Refine& refine) {
   constexpr double kWorse = 3.0;  // log odds
   const std::vector<Candidate> before = candidates;
-  refineAll(candidates, database, scene, fine);
+  refine();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].rank < before[i].rank - kWorse) candidates[i] = before[i];
   }
@@ -285,13 +289,53 @@ void refineFinely(std::vector<Candidate>& candidates,
   refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
-  refineUnlessWorse(candidates, database, scene, {8, kFinePoints, 3.0, effort.still});
+  unlessWorse(candidates, [&] {
+    refineAll(candidates, database, scene, {8, kFinePoints, 3.0, effort.still});
+  });
 }
 
 void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
-  refineUnlessWorse(candidates, database, scene, {16, kFinePoints, 1.5, 1e-5, 0.5, 0.08});
+  unlessWorse(candidates, [&] {
+    refineAll(candidates, database, scene, {16, kFinePoints, 1.5, 1e-5, 0.5, 0.08});
+  });
+}
+
+namespace {
+
+/// Aligns every pixel that shows a candidate with what was measured there.
+void alignPixels(std::vector<Candidate>& candidates,
+                 const ReferenceDatabase& database,
+                 const RefineScene& scene) {
+  constexpr int kIterations = 4;
+  constexpr int kMostPx = 400;  // a side: of more, every second is enough
+  std::vector<RenderTask> tasks;
+  for (const Candidate& candidate : candidates) {
+    const ReferenceObject& object = objectOf(candidate, database);
+    const double tolerance_mm = toleranceFor(object, scene.noise_mm);
+    RenderTask& task = tasks.emplace_back(
+        surfaceTask(object, candidate.pose, scene.depth.camera, scene.noise_mm, kMostPx));
+    task.max_points = kMostPx * kMostPx;
+    task.alignment = icpOptions(tolerance_mm, tolerance_mm, kIterations);
+    task.alignment.search_steps = 0;
+    task.alignment.slide = 0.0;
+  }
+  const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
+  for (std::size_t i = 0; i < aligned.size(); ++i)
+    candidates[i].pose = aligned[i].camera_from_object;
+}
+
+}  // namespace
+
+void settle(std::vector<Candidate>& candidates,
+            const ReferenceDatabase& database,
+            const RefineScene& scene) {
+  constexpr int kRounds = 2;
+  unlessWorse(candidates, [&] {
+    for (int round = 0; round < kRounds; ++round) alignPixels(candidates, database, scene);
+    checkAll(candidates, database, scene);
+  });
 }
 
 }  // namespace rangepose

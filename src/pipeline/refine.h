@@ -91,4 +91,12 @@ void refineTies(std::vector<Candidate>& candidates,
 /// Surfaces of an object closer than this count as the same [mm].
 double toleranceFor(const ReferenceObject& object, double noise_mm);
 
+/// Brings checked poses to rest where all of their pixels fit best, and checks them again: each
+/// pixel that shows the part is aligned with the depth measured on its own ray. Rims, which are
+/// known to a part of a pixel only, have no say, nor has which neighbour lies nearer, which is
+/// noise. For poses that are right but for a part of the tolerance.
+void settle(std::vector<Candidate>& candidates,
+            const ReferenceDatabase& database,
+            const RefineScene& scene);
+
 }  // namespace rangepose

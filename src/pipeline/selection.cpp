@@ -252,7 +252,7 @@ std::vector<Candidate> Selection::turnedCopies() {
 }
 
 std::vector<Candidate> Selection::takeTies() {
-  constexpr double kNearly = 2.0;  // log odds
+  constexpr double kNearly = 3.0;  // log odds
   std::vector<const Entry*> ties;
   const auto tie = [&](const Entry* entry) {
     if (std::find(ties.begin(), ties.end(), entry) == ties.end()) ties.push_back(entry);
@@ -265,8 +265,14 @@ std::vector<Candidate> Selection::takeTies() {
       tie(rival);
     }
   }
+  return take(ties);
+}
+
+std::vector<Candidate> Selection::takeChosen() { return take(std::vector(chosen_)); }
+
+std::vector<Candidate> Selection::take(const std::vector<const Entry*>& entries) {
   std::vector<Candidate> candidates;
-  for (const Entry* entry : ties) {
+  for (const Entry* entry : entries) {
     candidates.push_back(entry->alone);
     erase(entry);
   }

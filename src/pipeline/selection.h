@@ -40,6 +40,8 @@ class Selection {
   /// Takes the chosen poses out for which another one of the same surface is as likely, or nearly,
   /// and these as well, each judged by itself: to be aligned more closely and added again.
   std::vector<Candidate> takeTies();
+  /// Takes the chosen poses out, each judged by itself: likewise.
+  std::vector<Candidate> takeChosen();
   /// Takes what sure poses explain, with or without rivals, out of the mask of pixels. What unsure
   /// ones explain stays: the right pose may not have been found yet.
   void takeOut(Image<std::uint8_t>& mask) const;
@@ -64,6 +66,7 @@ class Selection {
   /// Takes an entry in, with the rivals that it meets here.
   void insert(std::unique_ptr<Entry> entry);
   void erase(const Entry* entry);
+  std::vector<Candidate> take(const std::vector<const Entry*>& entries);
   /// Fills in what follows from the candidate and the image.
   void describe(Entry& entry) const;
   /// Orders the poses, surest first, then judges all anew: what found parts hide of a pose does not

@@ -165,6 +165,18 @@ TEST_F(TurnedBarTest, PosesThatTheImageHardlyTellsApartAreTakenOutForACloserLook
   EXPECT_EQ(selection.choose().size(), 1u) << "a part in full view is lost";
 }
 
+TEST_F(TurnedBarTest, WhatIsChosenIsTakenOutAsItWasFound) {
+  show(5.0);
+  Selection selection(image_, database_, 0.1, 0.4);
+  selection.add({right_, turned_});
+  const std::vector<Candidate> taken = selection.takeChosen();
+  ASSERT_EQ(taken.size(), 1u);
+  EXPECT_EQ(taken[0].rank, right_.rank) << "what the choice made of it would be counted twice";
+  EXPECT_FALSE(selection.knows(right_)) << "it would stay as it was";
+  EXPECT_TRUE(selection.knows(turned_)) << "without its rivals a pose is surer than it should be";
+  EXPECT_TRUE(selection.takeChosen().empty());
+}
+
 TEST_F(TurnedBarTest, WhatIsDecidedIsNotLookedAtAgain) {
   show(5.0);
   Selection selection(image_, database_, 0.1, 0.4);
