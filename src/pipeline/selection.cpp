@@ -30,6 +30,15 @@ PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   return box;
 }
 
+/// Calls `body(one)` for each of the entries, on all cores.
+template <typename Entry, typename Body>
+void forEach(const std::vector<Entry*>& entries, const Body& body) {
+  parallelFor(static_cast<int>(entries.size()), 1, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
+      body(*entries[i]);
+  });
+}
+
 }  // namespace
 
 Selection::Selection(const DepthImage& depth,
@@ -58,35 +67,32 @@ const Selection::Entry* Selection::find(const Candidate& candidate) const {
 bool Selection::knows(const Candidate& candidate) const { return find(candidate) != nullptr; }
 
 void Selection::add(const std::vector<Candidate>& candidates) {
-  std::vector<std::unique_ptr<Entry>> added;
+  std::vector<Entry*> added;
   for (const Candidate& candidate : candidates) {
     if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
-    Entry& entry = *added.emplace_back(std::make_unique<Entry>());
-    entry.candidate = entry.alone = candidate;
-    entry.id = added_++;
-  }
-  parallelFor(static_cast<int>(added.size()), 1, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      describe(*added[i]);
-  });
-  for (std::unique_ptr<Entry>& entry : added) {
-    if (const Entry* known = find(entry->candidate)) {
-      if (known->alone.rank >= entry->alone.rank) continue;
+    if (const Entry* known = find(candidate)) {
+      if (known->alone.rank >= candidate.rank) continue;
+      std::erase(added, known);
       erase(known);
     }
-    insert(std::move(entry));
+    Entry& entry = *entries_.emplace_back(std::make_unique<Entry>());
+    entry.candidate = entry.alone = candidate;
+    entry.id = added_++;
+    added.push_back(&entry);
   }
+  forEach(added, [&](Entry& entry) { describe(entry); });
+  for (Entry* entry : added) findRivals(*entry);
   judgeAmongOthers();
   chosen_ = chosen();
 }
 
-void Selection::insert(std::unique_ptr<Entry> entry) {
+void Selection::findRivals(Entry& entry) {
   for (const auto& other : entries_) {
-    if (other->candidate.object != entry->candidate.object || !shareMost(*other, *entry)) continue;
-    other->rivals.push_back(entry.get());
-    entry->rivals.push_back(other.get());
+    if (other.get() == &entry) return;
+    if (other->candidate.object != entry.candidate.object || !shareMost(*other, entry)) continue;
+    other->rivals.push_back(&entry);
+    entry.rivals.push_back(other.get());
   }
-  entries_.push_back(std::move(entry));
 }
 
 void Selection::erase(const Entry* entry) {
@@ -109,8 +115,10 @@ void Selection::judgeAmongOthers() {
   orderByRank();
   FoundParts found(depth_.depth_mm.size());
   std::fill(owners_.begin(), owners_.end(), kNobody);
-  for (const Entry* entry : chosen()) {
-    if (entry->candidate.confidence < kFound) continue;
+  std::vector<Entry*> hiding = chosen();
+  std::erase_if(hiding, [](const Entry* one) { return one->candidate.confidence < kFound; });
+  forEach(hiding, [&](Entry& entry) { findExits(entry); });
+  for (const Entry* entry : hiding) {
     found.add(entry->pixels, entry->exit_mm);
     for (const std::int32_t at : entry->pixels) owners_.data()[at] = entry->id;
   }
@@ -127,20 +135,28 @@ void Selection::judgeAmongOthers() {
   orderByRank();
 }
 
-void Selection::describe(Entry& entry) const {
-  const Candidate& candidate = entry.candidate;
+SurfaceWindow Selection::windowOf(const Entry& entry) const {
   const ReferenceObject& object = objectOf(entry);
   const int all = std::max(depth_.camera.width, depth_.camera.height);
-  const SurfaceWindow window =
-      windowAround(depth_.camera, candidate.pose * object.center_mm, object.radius_mm, all);
+  return windowAround(
+      depth_.camera, entry.candidate.pose * object.center_mm, object.radius_mm, all);
+}
+
+void Selection::describe(Entry& entry) const {
+  const ReferenceObject& object = objectOf(entry);
+  const SurfaceWindow window = windowOf(entry);
   const Image<SurfaceTexel> surface =
-      host::renderSurface(object.mesh, depth_.camera, candidate.pose, window);
+      host::renderSurface(object.mesh, depth_.camera, entry.candidate.pose, window);
   const CheckOptions options = checkOptionsFor(object, noise_mm_);
   entry.judged = judgedPixels(surface, window, depth_, options);
   entry.pixels = explainedPixels(surface, window, depth_, sameSurfaceMm(options.tolerance_mm));
   entry.box = boxAround(entry.pixels, depth_.camera.width);
-  if (candidate.confidence >= kFound)
-    entry.exit_mm = exitDepths(object.mesh, candidate.pose, depth_.camera, window, entry.pixels);
+}
+
+void Selection::findExits(Entry& entry) const {
+  if (entry.exit_mm.size() == entry.pixels.size()) return;
+  entry.exit_mm = exitDepths(
+      objectOf(entry).mesh, entry.candidate.pose, depth_.camera, windowOf(entry), entry.pixels);
 }
 
 bool Selection::shareMost(const Entry& a, const Entry& b) {
@@ -185,8 +201,8 @@ double Selection::closeMm(const Entry& entry) const {
                   toleranceFor(object, noise_mm_));
 }
 
-std::vector<const Selection::Entry*> Selection::chosen() const {
-  std::vector<const Entry*> entries;
+std::vector<Selection::Entry*> Selection::chosen() const {
+  std::vector<Entry*> entries;
   std::vector<std::uint8_t> taken(depth_.depth_mm.size(), 0);
   const auto isFree = [&](const Entry& entry) {
     const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
@@ -197,9 +213,9 @@ std::vector<const Selection::Entry*> Selection::chosen() const {
   for (const auto& entry : entries_) {
     if (!(entry->candidate.confidence >= min_confidence_) || !isFree(*entry)) continue;
     const double close_mm = closeMm(*entry);
-    const Entry* best = entry.get();
+    Entry* best = entry.get();
     double most = 0.0;
-    for (const Entry* rival : entry->rivals) {
+    for (Entry* rival : entry->rivals) {
       const double its = preference(*rival, *entry, close_mm);
       if (!(its > most) || !isFree(*rival)) continue;
       best = rival;
@@ -253,13 +269,13 @@ std::vector<Candidate> Selection::turnedCopies() {
 
 std::vector<Candidate> Selection::takeTies() {
   constexpr double kNearly = 3.0;  // log odds
-  std::vector<const Entry*> ties;
-  const auto tie = [&](const Entry* entry) {
+  std::vector<Entry*> ties;
+  const auto tie = [&](Entry* entry) {
     if (std::find(ties.begin(), ties.end(), entry) == ties.end()) ties.push_back(entry);
   };
-  for (const Entry* entry : chosen_) {
+  for (Entry* entry : chosen_) {
     const double close_mm = closeMm(*entry);
-    for (const Entry* rival : entry->rivals) {
+    for (Entry* rival : entry->rivals) {
       if (std::abs(preference(*rival, *entry, close_mm)) > kNearly) continue;
       tie(entry);
       tie(rival);
@@ -270,7 +286,7 @@ std::vector<Candidate> Selection::takeTies() {
 
 std::vector<Candidate> Selection::takeChosen() { return take(std::vector(chosen_)); }
 
-std::vector<Candidate> Selection::take(const std::vector<const Entry*>& entries) {
+std::vector<Candidate> Selection::take(const std::vector<Entry*>& entries) {
   std::vector<Candidate> candidates;
   for (const Entry* entry : entries) {
     candidates.push_back(entry->alone);

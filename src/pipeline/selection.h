@@ -53,7 +53,7 @@ class Selection {
     Candidate alone;                   ///< as it was added
     std::vector<std::int32_t> pixels;  ///< explained ones, by rising index
     PixelBox box;                      ///< around them
-    std::vector<float> exit_mm;        ///< where rays through these leave a part that is found
+    std::vector<float> exit_mm;  ///< where rays through these leave it, of those that were found
     JudgedPixels judged;
     std::vector<Entry*> rivals;  ///< other poses of the same object for the same surface
     std::int32_t id = 0;         ///< never the same twice
@@ -63,12 +63,16 @@ class Selection {
     return database_.objects[static_cast<std::size_t>(entry.candidate.object)];
   }
   const Entry* find(const Candidate& candidate) const;
-  /// Takes an entry in, with the rivals that it meets here.
-  void insert(std::unique_ptr<Entry> entry);
+  /// Among the entries before it.
+  void findRivals(Entry& entry);
   void erase(const Entry* entry);
-  std::vector<Candidate> take(const std::vector<const Entry*>& entries);
+  std::vector<Candidate> take(const std::vector<Entry*>& entries);
+  /// Of the depth image, around the part.
+  SurfaceWindow windowOf(const Entry& entry) const;
   /// Fills in what follows from the candidate and the image.
   void describe(Entry& entry) const;
+  /// Fills in where rays leave the part, if that is not known yet.
+  void findExits(Entry& entry) const;
   /// Orders the poses, surest first, then judges all anew: what found parts hide of a pose does not
   /// speak against it.
   void judgeAmongOthers();
@@ -81,7 +85,7 @@ class Selection {
   /// the wrong way round from the right one may be smaller than the tolerance of the check.
   double closeMm(const Entry& entry) const;
   /// Those that share no surface, in the order of the surest pose for it.
-  std::vector<const Entry*> chosen() const;
+  std::vector<Entry*> chosen() const;
 
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
@@ -90,7 +94,7 @@ class Selection {
   std::vector<PoseDistance> distances_;          ///< by object
   std::vector<AreaMoments> moments_;             ///< by object
   std::vector<std::unique_ptr<Entry>> entries_;  ///< surest first
-  std::vector<const Entry*> chosen_;             ///< chosen() of all that were added
+  std::vector<Entry*> chosen_;                   ///< chosen() of all that were added
   std::int32_t added_ = 0;                       ///< entries so far
   Image<std::int32_t> owners_;                   ///< by pixel: the entry found there, or kNobody
 };
