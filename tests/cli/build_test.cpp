@@ -11,6 +11,7 @@ namespace {
 using ::testing::ContainsRegex;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class BuildTest : public CliTest {
  protected:
@@ -54,10 +55,18 @@ TEST_F(BuildTest, WritesOneFileAndDescribesEachObject) {
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(files(), ElementsAre("out.rpdb"));
   EXPECT_THAT(result.out, ContainsRegex("rendering by (glsl|host)"));
-  EXPECT_THAT(result.out, ContainsRegex("1 +bolt +8252 +[0-9.]+ +[0-9.]+ +60 +[0-9.]+ +C6\n"));
-  EXPECT_THAT(result.out, ContainsRegex("2 +elbow +7680 +114.28 +[0-9.]+ +60 +[0-9.]+ +C2\n"));
+  EXPECT_THAT(result.out, ContainsRegex("1 +bolt +[0-9]+ +[0-9.]+ +[0-9.]+ +60 +[0-9.]+ +C6\n"));
+  EXPECT_THAT(result.out, ContainsRegex("2 +elbow +[0-9]+ +114.28 +[0-9.]+ +60 +[0-9.]+ +C2\n"));
+  EXPECT_THAT(result.out, ContainsRegex("elbow: [0-9]+ of 7680 triangles are enough"));
   EXPECT_THAT(result.out, ContainsRegex("out.rpdb: [0-9.]+ MB, 2 objects, [0-9.]+ s"));
   EXPECT_EQ(result.err, "");
+}
+
+TEST_F(BuildTest, AllTrianglesMayBeKept) {
+  const RunResult result = build(bolt(), {"--simplify", "0"});
+  EXPECT_THAT(result.out, ContainsRegex("1 +bolt +8252 "));
+  EXPECT_THAT(result.out, Not(HasSubstr("are enough")));
+  EXPECT_EQ(build(bolt(), {"--simplify", "0.5"}).exit_code, 2) << "half of a part is no part";
 }
 
 TEST_F(BuildTest, AutoRendersOnTheHostWithoutEgl) {

@@ -19,6 +19,7 @@
 #include "io/atomic_file.h"
 #include "io/bop.h"
 #include "io/mesh_file.h"
+#include "io/mesh_simplify.h"
 #include "pipeline/path_choice.h"
 #include "rangepose/build_views.h"
 #include "rangepose/command.h"
@@ -45,6 +46,7 @@ struct BuildArguments {
   int bins = 0;
   std::string statistics;
   std::string unit = "mm";
+  double simplify = 2e-4;
   std::string path = "auto";
   int threads = 0;
 };
@@ -121,7 +123,7 @@ class Builder {
     const ChosenViews chosen = chooseViews(request_, file.path, mesh, symmetries);
     if (!chosen.note.empty()) notes_.push_back(chosen.note);
     ReferenceObject object =
-        describeObject(mesh, file.id, arguments_.size, chosen.rotations, options);
+        describeObject(withoutDetail(mesh), file.id, arguments_.size, chosen.rotations, options);
     object.symmetries = symmetries;
     warnAboutSize(object, arguments_.unit);
     render(object, options);
@@ -143,6 +145,24 @@ class Builder {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
+  /// What follows from the shape itself comes from all of its triangles, what is rendered from
+  /// these.
+  Mesh withoutDetail(const Mesh& mesh) {
+    const double error_mm = arguments_.simplify * diameter(mesh);
+    const Progress progress(
+        std::cerr, mesh.name + ": needless triangles left out", 0, terminalProgress());
+    Mesh result = simplified(mesh, error_mm);
+    if (result.triangles.size() < mesh.triangles.size()) {
+      notes_.push_back(
+          fmt::format("{}: {} of {} triangles are enough for its surface to within {:.2g} mm",
+                      mesh.name,
+                      result.triangles.size(),
+                      mesh.triangles.size(),
+                      error_mm));
+    }
+    return result;
+  }
+
   static void warnAboutSymmetries(const ModelFile& file, const Mesh& mesh) {
     const Symmetries found = findSymmetries(mesh);
     if (found.none()) return;
@@ -271,6 +291,13 @@ std::function<int()> declareBuild(CLI::App& command) {
   command.add_option("--unit", arguments->unit, "Of the meshes")
       ->check(CLI::IsMember({"mm", "m", "inch"}))
       ->capture_default_str();
+  command
+      .add_option("--simplify",
+                  arguments->simplify,
+                  "Leave out triangles that change the surface by less than this share of the "
+                  "diameter; 0: none")
+      ->check(CLI::Range(0.0, 0.01))
+      ->option_text("SHARE [0.0002]");
   command.add_option("--path", arguments->path, "What renders; auto: glsl where there is EGL")
       ->check(CLI::IsMember({"auto", "glsl", "host", "cuda"}))
       ->capture_default_str();
