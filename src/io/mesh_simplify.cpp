@@ -114,7 +114,7 @@ Mesh simplified(const Mesh& mesh, double max_error_mm) {
   const bool solid = isSolid(mesh);
   double error_mm = kFirst * max_error_mm;
   for (int i = 0; i < kTries; ++i, error_mm *= 0.5) {
-    const Mesh result = collapsed(*halfedges, mesh.name, error_mm);
+    Mesh result = collapsed(*halfedges, mesh.name, error_mm);
     if (result.triangles.empty() || (solid && !isSolid(result))) continue;
     if (liesNear(mesh, result, max_error_mm) && liesNear(result, mesh, max_error_mm)) return result;
   }

@@ -25,7 +25,6 @@ double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& ma
   // quantile it does not vanish when depth is quantised.
   const auto middle = differences.begin() + static_cast<std::ptrdiff_t>(differences.size() / 2);
   std::nth_element(differences.begin(), middle, differences.end());
-  std::sort(differences.begin(), middle);
   double sum = 0.0;
   for (auto it = differences.begin(); it != middle; ++it) sum += static_cast<double>(*it);
   // For x from N(0, s^2) the mean of the lower half of |x| is 0.3247 s; here s = sqrt(6) sigma.

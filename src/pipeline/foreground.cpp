@@ -5,6 +5,9 @@
 #include <random>
 #include <vector>
 
+#include "core/parallel.h"
+#include "stages/simd.h"
+
 namespace rangepose {
 namespace {
 
@@ -74,21 +77,55 @@ bool liesOn(const Sample& sample, const BackgroundPlane& plane, double tolerance
          glm::dot(sample.normal, plane.normal) > kFlatTiltCos;
 }
 
-/// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no
-/// background.
-int countOn(const Samples& samples,
-            const BackgroundPlane& plane,
-            double tolerance,
-            std::size_t stride,
-            double max_behind) {
-  int count = 0;
-  int behind = 0;
-  for (std::size_t i = 0; i < samples.size(); i += stride) {
-    count += liesOn(samples[i], plane, tolerance) ? 1 : 0;
-    behind += plane.heightOf(samples[i].point) < -3.0 * tolerance ? 1 : 0;
-    if (behind > max_behind) return 0;
+/// Some of the samples, number by number: planes are tried on them in vectors.
+struct TrialSamples {
+  std::vector<double> x, y, z;     ///< points [mm]
+  std::vector<double> nx, ny, nz;  ///< normals
+
+  explicit TrialSamples(const Samples& samples) {
+    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kTrialSamples);
+    for (std::size_t i = 0; i < samples.size(); i += stride) {
+      const Sample& sample = samples[i];
+      x.push_back(sample.point.x);
+      y.push_back(sample.point.y);
+      z.push_back(sample.point.z);
+      nx.push_back(sample.normal.x);
+      ny.push_back(sample.normal.y);
+      nz.push_back(sample.normal.z);
+    }
+    one_of = static_cast<double>(stride);
   }
-  return count;
+  std::size_t size() const { return x.size(); }
+
+  double one_of;  ///< so many samples
+};
+
+/// Number of samples on the plane; 0 when more than `max_behind` lie behind it: then it is no
+/// background. Also 0 when it is not more than `best`.
+RP_SIMD_CLONES int countOn(const TrialSamples& samples,
+                           const BackgroundPlane& plane,
+                           double tolerance,
+                           double max_behind,
+                           int best) {
+  constexpr std::size_t kBlock = 128;
+  const glm::dvec3 n = plane.normal;
+  std::int64_t count = 0;
+  std::int64_t behind = 0;
+  for (std::size_t begin = 0; begin < samples.size(); begin += kBlock) {
+    const std::size_t end = std::min(begin + kBlock, samples.size());
+    if (count + static_cast<std::int64_t>(samples.size() - begin) <= best) return 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double height =
+          n.x * samples.x[i] + n.y * samples.y[i] + n.z * samples.z[i] - plane.offset_mm;
+      const double cosine = n.x * samples.nx[i] + n.y * samples.ny[i] + n.z * samples.nz[i];
+      const bool near = std::abs(height) <= tolerance;
+      const bool flat = cosine > kFlatTiltCos;
+      count += near & flat ? 1 : 0;
+      behind += height < -3.0 * tolerance ? 1 : 0;
+    }
+    if (static_cast<double>(behind) > max_behind) return 0;
+  }
+  return static_cast<int>(count);
 }
 
 /// Mean and scatter of the points on a plane.
@@ -138,8 +175,7 @@ BackgroundPlane bestPlane(const Samples& samples,
                           double tolerance,
                           double max_behind,
                           std::mt19937_64& random) {
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kTrialSamples);
-  const double max_behind_of_tried = max_behind / static_cast<double>(stride);
+  const TrialSamples tried(samples);
   const auto pick = [&]() -> const Sample& {
     return samples[static_cast<std::size_t>(random() % samples.size())];
   };
@@ -158,7 +194,7 @@ BackgroundPlane bestPlane(const Samples& samples,
         !liesOn(c, plane, tolerance))
       continue;
     if (floor != nullptr && std::abs(glm::dot(plane.normal, floor->normal)) > kMaxWallCos) continue;
-    const int count = countOn(samples, plane, tolerance, stride, max_behind_of_tried);
+    const int count = countOn(tried, plane, tolerance, max_behind / tried.one_of, best_count);
     if (count > best_count) {
       best_count = count;
       best = plane;
@@ -239,24 +275,26 @@ Image<std::uint8_t> foregroundMask(const DepthImage& image,
                                    const std::optional<BinBox>& bin,
                                    const ForegroundOptions& options) {
   Image<std::uint8_t> mask(image.depth_mm.width(), image.depth_mm.height(), 0);
+  constexpr int kRowsPerPiece = 16;
   const double margin = 1.5 * options.tolerance_mm;
   const Pose bin_from_camera = bin ? bin->camera_from_bin.inverse() : Pose{};
-  for (int v = 0; v < mask.height(); ++v) {
-    for (int u = 0; u < mask.width(); ++u) {
-      const double depth = image.depth_mm.at(u, v);
-      if (!(depth > 0.0)) continue;
-      const glm::dvec3 point = image.camera.unproject(u, v, depth);
-      bool kept = std::all_of(planes.begin(), planes.end(), [&](const BackgroundPlane& plane) {
-        return plane.heightOf(point) > margin;
-      });
-      if (kept && bin) {
-        const glm::dvec3 inside = bin_from_camera * point;
-        kept = std::abs(inside.x) < 0.5 * bin->inner_size_mm.x - margin &&
-               std::abs(inside.y) < 0.5 * bin->inner_size_mm.y - margin && inside.z > margin;
+  const auto isKept = [&](const glm::dvec3& point) {
+    const bool above = std::all_of(planes.begin(), planes.end(), [&](const BackgroundPlane& plane) {
+      return plane.heightOf(point) > margin;
+    });
+    if (!above || !bin) return above;
+    const glm::dvec3 inside = bin_from_camera * point;
+    return std::abs(inside.x) < 0.5 * bin->inner_size_mm.x - margin &&
+           std::abs(inside.y) < 0.5 * bin->inner_size_mm.y - margin && inside.z > margin;
+  };
+  parallelFor(mask.height(), kRowsPerPiece, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      for (int u = 0; u < mask.width(); ++u) {
+        const double depth = image.depth_mm.at(u, v);
+        if (depth > 0.0 && isKept(image.camera.unproject(u, v, depth))) mask.at(u, v) = 1;
       }
-      mask.at(u, v) = kept ? 1 : 0;
     }
-  }
+  });
   return mask;
 }
 

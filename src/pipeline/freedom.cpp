@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.h"
 #include "pipeline/explained_pixels.h"
 #include "pipeline/refine.h"
 #include "stages/resample_host.h"
@@ -49,6 +50,32 @@ PartView viewOf(const ReferenceObject& object, const Camera& camera, const Pose&
   return view;
 }
 
+/// Calls body(i) for each of `count`, on all cores, `grain` at a time.
+template <typename Body>
+void forEach(std::size_t count, int grain, const Body& body) {
+  parallelFor(static_cast<int>(count), grain, [&](int begin, int end) {
+    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) body(i);
+  });
+}
+
+/// From the camera to what it measured farthest away [mm].
+double farthestMm(const DepthImage& depth) {
+  constexpr int kRowsPerPiece = 16;
+  std::vector<double> of_rows(static_cast<std::size_t>(depth.depth_mm.height()), 0.0);
+  forEach(of_rows.size(), kRowsPerPiece, [&](std::size_t y) {
+    double farthest_mm2 = 0.0;
+    const float* const row = depth.depth_mm.row(static_cast<int>(y));
+    for (int x = 0; x < depth.depth_mm.width(); ++x) {
+      if (row[x] == 0.0f) continue;
+      const glm::dvec3 point =
+          depth.camera.unproject(x, static_cast<double>(y), static_cast<double>(row[x]));
+      farthest_mm2 = std::max(farthest_mm2, glm::dot(point, point));
+    }
+    of_rows[y] = std::sqrt(farthest_mm2);
+  });
+  return of_rows.empty() ? 0.0 : *std::max_element(of_rows.begin(), of_rows.end());
+}
+
 /// Calls use(x, y, texel) for the pixels of the camera that show the part.
 template <typename Use>
 void forEachTexel(const PartView& view, const Use& use) {
@@ -89,22 +116,20 @@ FoundScene::FoundScene(const std::vector<PoseEstimate>& poses,
       noise_mm_(noise_mm),
       database_(database),
       unexplained_(depth.depth_mm.width(), depth.depth_mm.height(), 1) {
+  std::vector<std::vector<std::int32_t>> explained(poses_.size());
+  forEach(poses_.size(), 1, [&](std::size_t i) {
+    const ReferenceObject& object = objectOf(poses_[i]);
+    const PartView view = viewOf(object, depth_.camera, poses_[i].pose);
+    const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
+    explained[i] = explainedPixels(view.surface, view.window, depth_, same_mm);
+  });
+  for (const std::vector<std::int32_t>& pixels : explained) {
+    for (const std::int32_t at : pixels) unexplained_.data()[at] = 0;
+  }
+  reach_mm_ = farthestMm(depth_);
   for (const PoseEstimate& pose : poses_) {
     const ReferenceObject& object = objectOf(pose);
-    const PartView view = viewOf(object, depth_.camera, pose.pose);
-    const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
-    for (const std::int32_t at : explainedPixels(view.surface, view.window, depth_, same_mm)) {
-      unexplained_.data()[at] = 0;
-    }
     reach_mm_ = std::max(reach_mm_, glm::length(pose.pose * object.center_mm) + object.radius_mm);
-  }
-  for (int y = 0; y < depth_.depth_mm.height(); ++y) {
-    for (int x = 0; x < depth_.depth_mm.width(); ++x) {
-      const float depth_mm = depth_.depth_mm.at(x, y);
-      if (depth_mm == 0.0f) continue;
-      reach_mm_ = std::max(
-          reach_mm_, glm::length(depth_.camera.unproject(x, y, static_cast<double>(depth_mm))));
-    }
   }
 }
 
@@ -141,10 +166,10 @@ std::vector<double> FoundScene::freedom(const glm::dvec3& direction) const {
   const OrthoCamera ortho = viewAlong(direction);
   const Camera camera = parallelCamera(ortho);
   const Pose ortho_from_camera = ortho.camera_from_ortho.inverse();
-  std::vector<PartView> views;
-  for (const PoseEstimate& pose : poses_) {
-    views.push_back(viewOf(objectOf(pose), camera, ortho_from_camera * pose.pose));
-  }
+  std::vector<PartView> views(poses_.size());
+  forEach(poses_.size(), 1, [&](std::size_t i) {
+    views[i] = viewOf(objectOf(poses_[i]), camera, ortho_from_camera * poses_[i].pose);
+  });
   const NearestParts nearest(views, camera);
   const Image<float> measured_px = host::resample(depth_, unexplained_, ortho);
   std::vector<double> shares;

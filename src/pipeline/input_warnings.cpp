@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 #include "pipeline/enclosure.h"
@@ -10,11 +9,13 @@
 namespace rangepose {
 
 std::vector<std::string> unitWarnings(const DepthImage& depth, const ReferenceDatabase& database) {
+  // A unit is wrong by a factor of ten or more: a few of the pixels tell.
+  constexpr std::size_t kOneOf = 16;
   std::vector<float> depths;
-  std::copy_if(
-      depth.depth_mm.begin(), depth.depth_mm.end(), std::back_inserter(depths), [](float mm) {
-        return mm > 0.0f;
-      });
+  std::size_t measured = 0;
+  for (const float mm : depth.depth_mm) {
+    if (mm > 0.0f && measured++ % kOneOf == 0) depths.push_back(mm);
+  }
   const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
   std::nth_element(depths.begin(), middle, depths.end());
   const double spacing = depth.camera.pixelSpacingMm(static_cast<double>(*middle));
