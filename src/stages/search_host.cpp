@@ -46,9 +46,8 @@ class PaddedWindow {
 
 /// What the inner loop reads: plain pointers and numbers.
 struct Evaluation {
-  const PackedViews::Row* rows;
-  int row_count;
-  int row_step;
+  const PackedViews::Block* blocks;
+  std::size_t block_count;
   const float* reference_distance;
   const float* reference_range;
   const float* reference_cosine;
@@ -56,6 +55,8 @@ struct Evaluation {
   const float* scene_range;
   int stride;
   float shift_z;
+  float cover_count;
+  float range_weight;
   float range_limit;
   HolePolicy holes;
 };
@@ -68,32 +69,24 @@ RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e) {
   const Float8 limit = splat8(e.range_limit);
   const Float8 zero{};
   const Float8 over_hole = e.holes == HolePolicy::kLimit ? limit : zero;
-  float cover_count = 0.0f;
-  float range_weight = 0.0f;
-  for (int r = 0; r < e.row_count; ++r) {
-    const PackedViews::Row& row = e.rows[r];
-    if ((row.v & (e.row_step - 1)) != 0) continue;
-    cover_count += row.cover_count;
-    range_weight += row.range_weight;
-    const float* scene_distance = e.scene_distance + row.v * e.stride + row.u;
-    const float* scene_range = e.scene_range + row.v * e.stride + row.u;
-    for (int i = 0; i < row.count; i += kLanes) {
-      const Float8 reference_distance = load8(e.reference_distance + row.offset + i);
-      const Float8 cosine = load8(e.reference_cosine + row.offset + i);
-      const Float8 seen = load8(scene_range + i);
-      const Float8 gap = magnitude(load8(scene_distance + i) - reference_distance);
-      cover += reference_distance > zero ? gap : zero;
-      Float8 depth = magnitude(seen - (load8(e.reference_range + row.offset + i) + e.shift_z));
-      depth = depth > limit ? limit : depth;
-      depth = seen == zero ? over_hole : depth;
-      range += cosine * depth;
-      kept += seen == zero ? zero : cosine;
-    }
+  for (std::size_t i = 0; i < e.block_count; ++i) {
+    const PackedViews::Block& block = e.blocks[i];
+    const int at = block.v * e.stride + block.u;
+    const Float8 reference_distance = load8(e.reference_distance + block.offset);
+    const Float8 cosine = load8(e.reference_cosine + block.offset);
+    const Float8 seen = load8(e.scene_range + at);
+    const Float8 gap = magnitude(load8(e.scene_distance + at) - reference_distance);
+    cover += reference_distance > zero ? gap : zero;
+    Float8 depth = magnitude(seen - (load8(e.reference_range + block.offset) + e.shift_z));
+    depth = depth > limit ? limit : depth;
+    depth = seen == zero ? over_hole : depth;
+    range += cosine * depth;
+    kept += seen == zero ? zero : cosine;
   }
   // What is kept is added up, not what is lost taken away: over nothing but holes it must be
   // exactly 0.
-  const float weight = e.holes == HolePolicy::kIgnore ? sum8(kept) : range_weight;
-  return {sum8(cover), cover_count, sum8(range), weight};
+  const float weight = e.holes == HolePolicy::kIgnore ? sum8(kept) : e.range_weight;
+  return {sum8(cover), e.cover_count, sum8(range), weight};
 }
 
 ErrorTerms termsAt(const PackedViews& packed,
@@ -105,12 +98,11 @@ ErrorTerms termsAt(const PackedViews& packed,
   const float reach = maxShiftPx(size);
   // Written so that a NaN is outside too.
   if (!(std::abs(translation.x) <= reach && std::abs(translation.y) <= reach)) return {};
-  const PackedViews::View& view = packed.view(view_index);
+  const PackedViews::Rows& rows = packed.rows(view_index, options.row_step);
   const int origin = window.origin(static_cast<int>(std::floor(translation.x + 0.5f)),
                                    static_cast<int>(std::floor(translation.y + 0.5f)));
-  const Evaluation evaluation = {packed.rows(view),
-                                 view.row_count,
-                                 options.row_step,
+  const Evaluation evaluation = {rows.blocks.data(),
+                                 rows.blocks.size(),
                                  packed.distance(),
                                  packed.range(),
                                  packed.cosine(),
@@ -118,6 +110,8 @@ ErrorTerms termsAt(const PackedViews& packed,
                                  window.range() + origin,
                                  window.stride(),
                                  translation.z - static_cast<float>(size),
+                                 rows.cover_count,
+                                 rows.range_weight,
                                  options.range_limit_px,
                                  options.holes};
   return sumErrors(evaluation);
@@ -129,6 +123,16 @@ float backgroundDistance(const ReferenceObject& object) {
 
 }  // namespace
 
+namespace {
+
+void append(PackedViews::Rows& rows, const PackedViews::Rows& more) {
+  rows.blocks.insert(rows.blocks.end(), more.blocks.begin(), more.blocks.end());
+  rows.cover_count += more.cover_count;
+  rows.range_weight += more.range_weight;
+}
+
+}  // namespace
+
 PackedViews::PackedViews(const ReferenceObject& object) {
   for (int index = 0; index < static_cast<int>(object.views.size()); ++index) pack(object, index);
 }
@@ -136,8 +140,8 @@ PackedViews::PackedViews(const ReferenceObject& object) {
 void PackedViews::pack(const ReferenceObject& object, int index) {
   const PixelBox box = object.views[static_cast<std::size_t>(index)].box;
   const glm::ivec2 origin = object.tileOrigin(index);
-  View view;
-  view.first_row = static_cast<int>(rows_.size());
+  Rows& all = all_.emplace_back();
+  Rows& every_other = every_other_.emplace_back();
   for (int v = box.y0; v < box.y1; ++v) {
     const ReferenceTexel* texels = object.atlas.row(origin.y + v) + origin.x;
     int first = box.x0;
@@ -146,8 +150,10 @@ void PackedViews::pack(const ReferenceObject& object, int index) {
     while (last >= first && texels[last].a == 0.0f) --last;
     if (first > last) continue;
     const int count = (last - first + kLanes) / kLanes * kLanes;
-    Row row{first, v, static_cast<int>(distance_.size()), count};
+    Rows row;
     for (int u = first; u < first + count; ++u) {
+      if ((u - first) % kLanes == 0)
+        row.blocks.push_back({u, v, static_cast<int>(distance_.size())});
       const ReferenceTexel texel = u <= last ? texels[u] : ReferenceTexel(0.0f);
       const bool shown = texel.a > 0.0f;
       distance_.push_back(shown ? texel.r : 0.0f);
@@ -156,10 +162,9 @@ void PackedViews::pack(const ReferenceObject& object, int index) {
       if (shown && texel.r > 0.0f) row.cover_count += 1.0f;
       row.range_weight += shown ? texel.a : 0.0f;
     }
-    rows_.push_back(row);
-    ++view.row_count;
+    append(all, row);
+    if (v % 2 == 0) append(every_other, row);
   }
-  views_.push_back(view);
 }
 
 std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,

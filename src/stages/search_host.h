@@ -10,30 +10,32 @@
 namespace rangepose::host {
 
 /// The views of an object, packed for the inner loop: planes of floats instead of texels, rows cut
-/// to where the object is and padded to whole vectors with pixels that weigh nothing.
+/// to where the object is and padded to whole blocks with pixels that weigh nothing. The blocks of
+/// a view are one list: a loop over rows would end at another block in each.
 class PackedViews {
  public:
   static constexpr int kLanes = 8;
 
-  /// A run of pixels of one row of a tile.
-  struct Row {
-    int u = 0;       ///< first column in the tile
-    int v = 0;       ///< row in the tile
-    int offset = 0;  ///< of the first pixel in the planes
-    int count = 0;   ///< pixels, a multiple of kLanes
+  /// kLanes pixels of one row of a tile.
+  struct Block {
+    int u;       ///< first column in the tile
+    int v;       ///< row in the tile
+    int offset;  ///< of the first pixel in the planes
+  };
+  /// Some rows of a view, from top to bottom.
+  struct Rows {
+    std::vector<Block> blocks;
     // What does not depend on the translation.
     float cover_count = 0.0f;   ///< sum of f (Eq. 4)
     float range_weight = 0.0f;  ///< sum of c (Eq. 6)
   };
-  struct View {
-    int first_row = 0;
-    int row_count = 0;
-  };
 
   explicit PackedViews(const ReferenceObject& object);
 
-  const View& view(int index) const { return views_[static_cast<std::size_t>(index)]; }
-  const Row* rows(const View& view) const { return rows_.data() + view.first_row; }
+  /// All of a view, or with a step of 2 every other row of its tile.
+  const Rows& rows(int view, int row_step) const {
+    return (row_step == 1 ? all_ : every_other_)[static_cast<std::size_t>(view)];
+  }
   const float* distance() const { return distance_.data(); }
   const float* range() const { return range_.data(); }
   const float* cosine() const { return cosine_.data(); }
@@ -41,8 +43,8 @@ class PackedViews {
  private:
   void pack(const ReferenceObject& object, int index);
 
-  std::vector<View> views_;
-  std::vector<Row> rows_;
+  std::vector<Rows> all_;          ///< by view
+  std::vector<Rows> every_other_;  ///< by view
   std::vector<float> distance_;
   std::vector<float> range_;
   std::vector<float> cosine_;
