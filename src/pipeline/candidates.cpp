@@ -30,25 +30,26 @@ void forEachWindow(std::size_t count, const Body& body) {
 void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineScene& scene) {
   const CheckOptions options = glanceOptionsFor(object, scene.noise_mm);
   std::vector<int> views;
+  std::vector<std::size_t> first;  // of the tasks of each window
   for (const std::vector<Candidate>& own : windows) {
+    first.push_back(views.size());
     for (const Candidate& candidate : own) views.push_back(candidate.view);
   }
   const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
-  std::vector<JudgeTask> tasks;
-  tasks.reserve(views.size());
-  for (const std::vector<Candidate>& own : windows) {
-    for (const Candidate& candidate : own) {
+  std::vector<JudgeTask> tasks(views.size());
+  forEachWindow(windows.size(), [&](std::size_t w) {
+    std::size_t next = first[w];
+    for (const Candidate& candidate : windows[w]) {
       const auto view = static_cast<std::size_t>(candidate.view);
-      tasks.push_back(
-          {&points[view], candidate.pose, visibleArea(object, candidate.view), options});
+      tasks[next++] = {&points[view], candidate.pose, visibleArea(object, candidate.view), options};
     }
-  }
+  });
   const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
   const double mean_mm2 = meanVisibleArea(object);
-  std::size_t next = 0;
-  for (std::vector<Candidate>& own : windows) {
-    for (Candidate& candidate : own) setVerdict(candidate, verdicts[next++], mean_mm2);
-  }
+  forEachWindow(windows.size(), [&](std::size_t w) {
+    std::size_t next = first[w];
+    for (Candidate& candidate : windows[w]) setVerdict(candidate, verdicts[next++], mean_mm2);
+  });
 }
 
 using Order = std::vector<const Candidate*>;

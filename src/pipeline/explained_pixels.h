@@ -101,6 +101,10 @@ Votes votesBetween(const std::vector<NearPixel>& first,
     const std::int32_t at = in_a ? a->at : b->at;
     const float gap_a = in_a ? (a++)->gap_mm : 0.0f;
     const float gap_b = in_b ? (b++)->gap_mm : 0.0f;
+    // Most pixels: both are close.
+    if (in_a && in_b && gap_a >= 0.0f && gap_b >= 0.0f && static_cast<double>(gap_a) <= close_mm &&
+        static_cast<double>(gap_b) <= close_mm)
+      continue;
     const bool through_a = gap_a == kSeenThrough;
     const bool through_b = gap_b == kSeenThrough;
     if (through_a || through_b) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/parallel.h"
 #include "pipeline/enclosure.h"
 
 namespace rangepose {
@@ -38,23 +39,36 @@ std::vector<std::string> binWarnings(const DepthImage& depth,
                                      const BinBox& bin,
                                      const ReferenceDatabase& database) {
   constexpr double kMuch = 0.02;  // of the pixels between the walls
+  constexpr int kRowsPerPiece = 16;
   double smallest_mm = std::numeric_limits<double>::max();
   for (const ReferenceObject& object : database.objects)
     smallest_mm = std::min(smallest_mm, object.diameter_mm);
   const double margin_mm = kEnclosureMargin * smallest_mm;
   const Pose bin_from_camera = bin.camera_from_bin.inverse();
+  struct Row {
+    std::size_t between = 0;
+    std::vector<double> under_mm;
+  };
+  std::vector<Row> rows(static_cast<std::size_t>(depth.depth_mm.height()));
+  parallelFor(depth.depth_mm.height(), kRowsPerPiece, [&](int begin, int end) {
+    for (int v = begin; v < end; ++v) {
+      Row& row = rows[static_cast<std::size_t>(v)];
+      for (int u = 0; u < depth.depth_mm.width(); ++u) {
+        const double z_mm = static_cast<double>(depth.depth_mm.at(u, v));
+        if (!(z_mm > 0.0)) continue;
+        const glm::dvec3 point = bin_from_camera * depth.camera.unproject(u, v, z_mm);
+        if (std::abs(point.x) > 0.5 * bin.inner_size_mm.x) continue;
+        if (std::abs(point.y) > 0.5 * bin.inner_size_mm.y) continue;
+        ++row.between;
+        if (-point.z > margin_mm) row.under_mm.push_back(-point.z);
+      }
+    }
+  });
   std::vector<double> under_mm;
   std::size_t between = 0;
-  for (int v = 0; v < depth.depth_mm.height(); ++v) {
-    for (int u = 0; u < depth.depth_mm.width(); ++u) {
-      const double z_mm = static_cast<double>(depth.depth_mm.at(u, v));
-      if (!(z_mm > 0.0)) continue;
-      const glm::dvec3 point = bin_from_camera * depth.camera.unproject(u, v, z_mm);
-      if (std::abs(point.x) > 0.5 * bin.inner_size_mm.x) continue;
-      if (std::abs(point.y) > 0.5 * bin.inner_size_mm.y) continue;
-      ++between;
-      if (-point.z > margin_mm) under_mm.push_back(-point.z);
-    }
+  for (const Row& row : rows) {
+    between += row.between;
+    under_mm.insert(under_mm.end(), row.under_mm.begin(), row.under_mm.end());
   }
   if (under_mm.size() == between) {
     return {"no measured pixel lies in the bin: check that cam_t_bin2c and inner_size are in mm"};

@@ -30,12 +30,12 @@ PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   return box;
 }
 
-/// Calls `body(one)` for each of the entries, on all cores.
+/// Calls `body(one, its index)` for each of the entries, on all cores.
 template <typename Entry, typename Body>
 void forEach(const std::vector<Entry*>& entries, const Body& body) {
   parallelFor(static_cast<int>(entries.size()), 1, [&](int begin, int end) {
     for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      body(*entries[i]);
+      body(*entries[i], i);
   });
 }
 
@@ -80,7 +80,7 @@ void Selection::add(const std::vector<Candidate>& candidates) {
     entry.id = added_++;
     added.push_back(&entry);
   }
-  forEach(added, [&](Entry& entry) { describe(entry); });
+  forEach(added, [&](Entry& entry, std::size_t) { describe(entry); });
   for (Entry* entry : added) findRivals(*entry);
   judgeAmongOthers();
   chosen_ = chosen();
@@ -117,7 +117,7 @@ void Selection::judgeAmongOthers() {
   std::fill(owners_.begin(), owners_.end(), kNobody);
   std::vector<Entry*> hiding = chosen();
   std::erase_if(hiding, [](const Entry* one) { return one->candidate.confidence < kFound; });
-  forEach(hiding, [&](Entry& entry) { findExits(entry); });
+  forEach(hiding, [&](Entry& entry, std::size_t) { findExits(entry); });
   for (const Entry* entry : hiding) {
     found.add(entry->pixels, entry->exit_mm);
     for (const std::int32_t at : entry->pixels) owners_.data()[at] = entry->id;
@@ -248,22 +248,25 @@ std::vector<Candidate> Selection::choose() const {
 }
 
 std::vector<Candidate> Selection::turnedCopies() {
-  std::vector<Candidate> copies;
-  int window = 0;
+  std::vector<Entry*> turned;
   for (const auto& entry : entries_) {
-    if (entry->turned || entry->candidate.confidence < kWorthTurning) continue;
-    entry->turned = true;
-    for (Candidate& copy :
-         rangepose::turnedCopies(entry->candidate,
-                                 entry->pixels,
-                                 depth_,
-                                 objectOf(*entry),
-                                 moments_[static_cast<std::size_t>(entry->candidate.object)])) {
-      copy.window = window;
-      copies.push_back(copy);
-    }
-    ++window;
+    if (!entry->turned && !(entry->candidate.confidence < kWorthTurning))
+      turned.push_back(entry.get());
   }
+  std::vector<std::vector<Candidate>> copies_of(turned.size());
+  forEach(turned, [&](Entry& entry, std::size_t i) {
+    entry.turned = true;
+    copies_of[i] =
+        rangepose::turnedCopies(entry.candidate,
+                                entry.pixels,
+                                depth_,
+                                objectOf(entry),
+                                moments_[static_cast<std::size_t>(entry.candidate.object)]);
+    for (Candidate& copy : copies_of[i]) copy.window = static_cast<int>(i);
+  });
+  std::vector<Candidate> copies;
+  for (const std::vector<Candidate>& own : copies_of)
+    copies.insert(copies.end(), own.begin(), own.end());
   return copies;
 }
 
