@@ -35,6 +35,7 @@ void fillErrors(ImageGrading& grading,
   const PairErrors infinite(columns, rows, std::numeric_limits<double>::infinity());
   errors.mssd = errors.mspd_px = errors.rotation_rad = errors.translation_mm = infinite;
   errors.vsd.assign(vsd.taus.size(), infinite);
+  errors.unlike = infinite;
   if (infinite.empty()) return;
   const std::vector<PosedModel> seen = renderAll(grading.estimates, model, camera);
   const std::vector<PosedModel> real = renderAll(grading.truths, model, camera);
@@ -52,6 +53,8 @@ void fillErrors(ImageGrading& grading,
       const std::vector<double> vsds =
           vsdErrors(measured_mm, seen[e], real[t], model.diameterMm(), vsd);
       for (std::size_t i = 0; i < vsds.size(); ++i) errors.vsd[i].at(column, row) = vsds[i];
+      errors.unlike.at(column, row) =
+          unlikeness(measured_mm, seen[e], real[t], kLookApart * model.diameterMm());
       if (!(errors.mssd.at(column, row) < kDetailLimit)) continue;
       errors.rotation_rad.at(column, row) = rotationErrorRad(model, estimate, truth);
       errors.translation_mm.at(column, row) = translationErrorMm(model, estimate, truth);

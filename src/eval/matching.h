@@ -12,6 +12,9 @@ namespace rangepose {
 /// x).
 using PairErrors = Image<double>;
 
+/// Surfaces that are less than this apart look the same [diameters].
+inline constexpr double kLookApart = 0.01;
+
 /// All estimates of one object in one image, measured against the truth.
 struct ObjectErrors {
   int scene_id = 0;
@@ -23,6 +26,7 @@ struct ObjectErrors {
   PairErrors mssd;              ///< [diameters]; at and above 0.5 only a lower bound
   PairErrors mspd_px;           ///< as in an image 640 px wide; at and above 50 only a lower bound
   std::vector<PairErrors> vsd;  ///< one for each tau of VsdOptions, 0..1
+  PairErrors unlike;            ///< unlikeness() at kLookApart, 0..1
   PairErrors rotation_rad;      ///< modulo symmetry; only where mssd is below 0.1, else infinite
   PairErrors translation_mm;    ///< of the nearest symmetric copy; likewise
 };

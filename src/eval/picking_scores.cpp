@@ -39,11 +39,14 @@ struct Judged {
   Verdict verdict = Verdict::kFalse;
 };
 
-std::vector<Judged> judge(const ObjectErrors& image, double limit, double min_visible) {
+std::vector<Judged> judge(const ObjectErrors& image,
+                          const PairErrors& errors,
+                          double limit,
+                          double min_visible) {
   std::vector<Judged> judged;
-  const std::vector<int> matches = matchGreedily(image.mssd, limit);
+  const std::vector<int> matches = matchGreedily(errors, limit);
   for (std::size_t i = 0; i < image.scores.size(); ++i) {
-    const int match = image.mssd.empty() ? kUnmatched : matches[i];
+    const int match = errors.empty() ? kUnmatched : matches[i];
     Verdict verdict = Verdict::kFalse;
     if (match != kUnmatched) {
       const bool counts = image.visible_fractions[static_cast<std::size_t>(match)] >= min_visible;
@@ -52,6 +55,17 @@ std::vector<Judged> judge(const ObjectErrors& image, double limit, double min_vi
     judged.push_back({image.scores[i], verdict});
   }
   return judged;
+}
+
+/// MSSD, but just right where poses look the same [diameters].
+PairErrors errorsAsSeen(const ObjectErrors& image, const PickingOptions& options) {
+  const double just_right = std::nextafter(options.right, 0.0);
+  PairErrors errors = image.mssd;
+  auto unlike = image.unlike.begin();
+  for (double& error : errors) {
+    if (*unlike++ < options.unlike) error = std::min(error, just_right);
+  }
+  return errors;
 }
 
 /// What happened to the estimate with the top score of an image.
@@ -140,6 +154,24 @@ double averagePrecision(const std::vector<PrecisionRecall>& curve) {
   return area;
 }
 
+void scoreAsSeen(const std::vector<ObjectErrors>& images,
+                 const PickingOptions& options,
+                 const std::optional<int>& obj_id,
+                 PickingScores& scores) {
+  int found = 0;
+  int wrong = 0;
+  for (const ObjectErrors& image : images) {
+    if (!isOf(image, obj_id)) continue;
+    const PairErrors errors = errorsAsSeen(image, options);
+    for (const Judged& one : judge(image, errors, options.right, options.min_visible)) {
+      found += one.verdict == Verdict::kFound ? 1 : 0;
+      wrong += one.verdict == Verdict::kFalse ? 1 : 0;
+    }
+  }
+  scores.recall_as_seen = share(found, scores.parts);
+  scores.precision_as_seen = share(found, found + wrong);
+}
+
 std::vector<ReliabilityBin> reliabilityOf(const std::vector<Judged>& judged) {
   constexpr int kBins = 10;
   std::vector<ReliabilityBin> bins(kBins);
@@ -167,6 +199,7 @@ std::vector<ReliabilityBin> reliabilityOf(const std::vector<Judged>& judged) {
 void PickingOptions::check() const {
   RP_CHECK(right > 0.0 && right <= 0.1, "picking: right must lie in 0..0.1");
   RP_CHECK(strict > 0.0 && strict <= right, "picking: strict must be positive and at most right");
+  RP_CHECK(unlike >= 0.0 && unlike <= 1.0, "picking: unlike must lie in 0..1");
   RP_CHECK(min_visible >= 0.0 && min_visible <= 1.0, "picking: min_visible must lie in 0..1");
 }
 
@@ -179,7 +212,7 @@ PickingScores pickingScores(const std::vector<ObjectErrors>& images,
   for (const ObjectErrors& image : images) {
     if (!isOf(image, obj_id)) continue;
     scores.parts += partsToFind(image, options.min_visible);
-    const std::vector<Judged> more = judge(image, options.right, options.min_visible);
+    const std::vector<Judged> more = judge(image, image.mssd, options.right, options.min_visible);
     judged.insert(judged.end(), more.begin(), more.end());
   }
   std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) {
@@ -203,6 +236,7 @@ PickingScores pickingScores(const std::vector<ObjectErrors>& images,
   }
   scores.recall_strict = recallAt(images, options.strict, options.min_visible, obj_id);
   scores.reliability = reliabilityOf(judged);
+  scoreAsSeen(images, options, obj_id, scores);
   scoreFirstPicks(images, options, obj_id, scores);
   scoreMedians(images, options, obj_id, scores);
   return scores;
@@ -217,7 +251,7 @@ double recallAt(const std::vector<ObjectErrors>& images,
   for (const ObjectErrors& image : images) {
     if (!isOf(image, obj_id)) continue;
     parts += partsToFind(image, min_visible);
-    for (const Judged& estimate : judge(image, limit, min_visible)) {
+    for (const Judged& estimate : judge(image, image.mssd, limit, min_visible)) {
       found += estimate.verdict == Verdict::kFound ? 1 : 0;
     }
   }

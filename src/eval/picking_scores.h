@@ -5,6 +5,10 @@
 // score, each with one true pose. A right pose of a part that is less visible than `min_visible` is
 // neither found nor false: it is left out of recall, precision and average precision (as PASCAL VOC
 // treats objects marked as difficult). A second right pose of the same part is false.
+//
+// What an image does not show decides nothing: of a part that looks the same either way up, one
+// that lies so that the difference is hidden, no method knows how it lies. "As seen" a pose is also
+// right when it looks like the true one.
 #pragma once
 
 #include <optional>
@@ -17,6 +21,7 @@ namespace rangepose {
 struct PickingOptions {
   double right = 0.10;        ///< MSSD of a right pose is below this [diameters], at most 0.1
   double strict = 0.02;       ///< the same where precision matters [diameters]
+  double unlike = 0.005;      ///< poses look the same when `unlike` of ObjectErrors is below this
   double min_visible = 0.50;  ///< parts less visible need not be found
   void check() const;         ///< throws Error naming the bad field
 };
@@ -50,7 +55,9 @@ struct PickingScores {
   double precision = 0.0;
   double average_precision = 0.0;  ///< all-point interpolation
   double recall_at_99 = 0.0;       ///< largest recall of a score limit with precision >= 0.99
-  double median_mssd = 0.0;        ///< of right poses [diameters]
+  double recall_as_seen = 0.0;
+  double precision_as_seen = 0.0;
+  double median_mssd = 0.0;  ///< of right poses [diameters]
   double median_rotation_rad = 0.0;
   double median_translation_mm = 0.0;
   std::vector<PrecisionRecall> curve;       ///< by falling score, one point for each score

@@ -41,27 +41,31 @@ std::string pickingTable(const std::vector<ScoreRow>& rows, const PickingOptions
   std::string text = fmt::format(
       "| object | images | first pick [%] | first pick at {0} % [%] | parts | recall [%] | "
       "recall at {0} % [%] | estimates | precision [%] | AP | recall at 99 % precision [%] | "
-      "median MSSD [% of diameter] | median rotation [deg] | median translation [mm] |\n"
-      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
+      "median MSSD [% of diameter] | median rotation [deg] | median translation [mm] | "
+      "recall as seen [%] | precision as seen [%] |\n"
+      "|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n",
       strict);
   for (const ScoreRow& row : rows) {
     const PickingScores& p = row.picking;
-    fmt::format_to(std::back_inserter(text),
-                   "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
-                   row.name,
-                   p.images,
-                   percent(p.first_pick),
-                   percent(p.first_pick_strict),
-                   p.parts,
-                   percent(p.recall),
-                   percent(p.recall_strict),
-                   p.estimates,
-                   percent(p.precision),
-                   plain(p.average_precision, 3),
-                   percent(p.recall_at_99),
-                   percent(p.median_mssd, 3),
-                   plain(degrees(p.median_rotation_rad), 3),
-                   plain(p.median_translation_mm, 3));
+    fmt::format_to(
+        std::back_inserter(text),
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |\n",
+        row.name,
+        p.images,
+        percent(p.first_pick),
+        percent(p.first_pick_strict),
+        p.parts,
+        percent(p.recall),
+        percent(p.recall_strict),
+        p.estimates,
+        percent(p.precision),
+        plain(p.average_precision, 3),
+        percent(p.recall_at_99),
+        percent(p.median_mssd, 3),
+        plain(degrees(p.median_rotation_rad), 3),
+        plain(p.median_translation_mm, 3),
+        percent(p.recall_as_seen),
+        percent(p.precision_as_seen));
   }
   return text;
 }
@@ -122,10 +126,15 @@ std::string scoreMarkdown(const GradedResults& results,
       ".\n\n### Bin picking\n\nRight: MSSD below {} % of the diameter. Parts: those visible >= {} "
       "%. "
       "A right pose of a less visible part ({} of them) counts neither as found nor as false; a "
-      "second one of the same part is false.\n\n",
+      "second one of the same part is false. As seen: a pose is also right that looks like the "
+      "true "
+      "one, so that at most {} % of what is visible of them is {} % of the diameter apart, or "
+      "more.\n\n",
       percent(options.right, 0),
       percent(options.min_visible, 0),
-      rows.front().picking.ignored);
+      rows.front().picking.ignored,
+      percent(options.unlike),
+      percent(kLookApart, 0));
   text += pickingTable(rows, options);
   text += "\n### BOP\n\nAverage recalls as in the BOP challenges since 2019.\n\n" + bopTable(rows);
   text += "\n### Reliability\n\n";
@@ -139,11 +148,11 @@ std::string scoreCsv(const std::vector<ScoreRow>& rows) {
   std::string text =
       "object,images,first_pick,first_pick_strict,parts,recall,recall_strict,estimates,ignored,"
       "precision,average_precision,recall_at_99,median_mssd,median_rotation_deg,"
-      "median_translation_mm,targets,ar,ar_vsd,ar_mssd,ar_mspd\n";
+      "median_translation_mm,recall_as_seen,precision_as_seen,targets,ar,ar_vsd,ar_mssd,ar_mspd\n";
   for (const ScoreRow& row : rows) {
     const PickingScores& p = row.picking;
     fmt::format_to(std::back_inserter(text),
-                   "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                   "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                    row.name,
                    p.images,
                    cell(p.first_pick),
@@ -159,6 +168,8 @@ std::string scoreCsv(const std::vector<ScoreRow>& rows) {
                    cell(p.median_mssd),
                    cell(degrees(p.median_rotation_rad)),
                    cell(p.median_translation_mm),
+                   cell(p.recall_as_seen),
+                   cell(p.precision_as_seen),
                    row.bop.targets,
                    cell(row.bop.average()),
                    cell(row.bop.vsd),

@@ -102,4 +102,28 @@ std::vector<double> vsdErrors(const Image<float>& measured_mm,
   return errors;
 }
 
+double unlikeness(const Image<float>& measured_mm,
+                  const PosedModel& estimate,
+                  const PosedModel& truth,
+                  double apart_mm) {
+  const auto apart = static_cast<float>(apart_mm);
+  const PixelBox box = unionOf(estimate.box, truth.box);
+  int either = 0;
+  int alike = 0;
+  for (int v = box.y0; v < box.y1; ++v) {
+    for (int u = box.x0; u < box.x1; ++u) {
+      const float measured = measured_mm.at(u, v);
+      if (measured == 0.0f) continue;
+      const float found = at(estimate, u, v);
+      const float real = at(truth, u, v);
+      const bool estimate_seen = isVisible(found, measured, apart);
+      const bool truth_seen = isVisible(real, measured, apart);
+      if (!estimate_seen && !truth_seen) continue;
+      ++either;
+      if (found > 0.0f && real > 0.0f && std::abs(found - real) < apart) ++alike;
+    }
+  }
+  return either == 0 ? 1.0 : static_cast<double>(either - alike) / either;
+}
+
 }  // namespace rangepose

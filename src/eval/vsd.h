@@ -39,4 +39,13 @@ std::vector<double> vsdErrors(const Image<float>& measured_mm,
                               double diameter_mm,
                               const VsdOptions& options = {});
 
+/// How differently two poses look to the sensor: the share of the pixels at which one of them is
+/// seen where the other is not, or `apart_mm` nearer or farther, 0..1; 1 when neither is seen. Seen
+/// is what was measured and lies at most `apart_mm` behind it: unlike for VSD, a hole shows
+/// nothing, nor does what other parts cover.
+double unlikeness(const Image<float>& measured_mm,
+                  const PosedModel& estimate,
+                  const PosedModel& truth,
+                  double apart_mm);
+
 }  // namespace rangepose

@@ -40,6 +40,7 @@ ObjectErrors imageOf(int im_id,
   image.mspd_px = image.mssd;
   for (double& value : image.mspd_px) value *= 100.0;
   image.vsd.assign(10, image.mssd);
+  image.unlike = PairErrors(image.mssd.width(), image.mssd.height(), 1.0);
   image.rotation_rad = image.translation_mm = image.mssd;
   return image;
 }
@@ -98,6 +99,27 @@ TEST(PickingScores, PerfectResult) {
   }
   EXPECT_EQ(scores.median_mssd, 0.0);
   EXPECT_EQ(recallAt(images, 1e-9, 0.5), 1.0);
+}
+
+TEST(PickingScores, AsSeenAPoseThatLooksLikeTheTrueOneIsRight) {
+  std::vector<ObjectErrors> images = {
+      imageOf(1, {0.9, 0.8, 0.7}, {{0.9, 0, 0.01}, {0.8, 1, 0.4}, {0.7, 2, 0.4}})};
+  images[0].unlike.at(1, 1) = 0.001;  // the wrong way up, which the image does not show
+  images[0].unlike.at(2, 2) = 0.02;   // which it shows
+  const PickingScores scores = pickingScores(images, {});
+  EXPECT_DOUBLE_EQ(scores.recall, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.precision, 1.0 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.recall_as_seen, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.precision_as_seen, 2.0 / 3.0);
+  EXPECT_DOUBLE_EQ(scores.median_mssd, 0.01) << "errors are those of right poses";
+}
+
+TEST(PickingScores, AsSeenEachPartIsFoundOnce) {
+  std::vector<ObjectErrors> images = {imageOf(1, {0.9}, {{0.9, 0, 0.4}, {0.8, 0, 0.01}})};
+  images[0].unlike.at(0, 0) = images[0].unlike.at(0, 1) = 0.0;
+  const PickingScores scores = pickingScores(images, {});
+  EXPECT_DOUBLE_EQ(scores.recall_as_seen, 1.0);
+  EXPECT_DOUBLE_EQ(scores.precision_as_seen, 0.5) << "both poses of a part are two answers";
 }
 
 /// By falling score: found, false, found, ignored (visible 0.3), a second time the first part

@@ -2,8 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "core/error.h"
 #include "eval/eval_support.h"
+#include "eval/grade_image.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
 
@@ -137,6 +140,42 @@ TEST(Vsd, OptionsAreChecked) {
   EXPECT_THROW(options.check(), Error);
   options.taus = {0.0};
   EXPECT_THROW(options.check(), Error);
+}
+
+/// How differently a part looks in two poses, the first of which is measured.
+double unlike(const Mesh& part, const Pose& truth, const Pose& estimate) {
+  Camera camera;
+  camera.width = 160;
+  camera.height = 120;
+  camera.fx = camera.fy = 300.0;
+  camera.cx = 79.5;
+  camera.cy = 59.5;
+  const ErrorModel model(part, {});
+  const PosedModel seen = renderPosed(part, camera, truth);
+  Image<float> measured(camera.width, camera.height, 0.0f);
+  for (int v = seen.box.y0; v < seen.box.y1; ++v) {
+    for (int u = seen.box.x0; u < seen.box.x1; ++u)
+      measured.at(u, v) = seen.distance_mm.at(u - seen.box.x0, v - seen.box.y0);
+  }
+  ImageGrading grading;
+  grading.estimates = {estimate};
+  grading.truths = {truth};
+  fillErrors(grading, model, camera, measured, {});
+  EXPECT_GT(grading.errors.mssd.at(0, 0), 0.1) << "a pose that is right anyway shows nothing";
+  return grading.errors.unlike.at(0, 0);
+}
+
+TEST(Unlike, WhatLiesOnTheFarSideIsNotSeen) {
+  // A plate with a knob at one end, on the far side or on the near one.
+  const Mesh plate = test::meshOf(
+      {{{-30.0, -20.0, 0.0}, {30.0, 20.0, 4.0}}, {{16.0, -6.0, 4.0}, {26.0, 6.0, 12.0}}});
+  const Pose far_side = at(0.0, 0.0, 300.0);
+  const Pose half_turn{rotationFromVector({0.0, 0.0, std::numbers::pi}), {0.0, 0.0, 0.0}};
+  EXPECT_LT(unlike(plate, far_side, far_side * half_turn), 0.001);
+  const Pose near_side =
+      far_side * Pose{rotationFromVector({0.0, std::numbers::pi, 0.0}), {0.0, 0.0, 0.0}};
+  EXPECT_GT(unlike(plate, near_side, near_side * half_turn), 0.02)
+      << "the knob, some 5 % of what is seen, is in plain sight";
 }
 
 }  // namespace
