@@ -57,6 +57,15 @@ std::vector<Judged> judge(const ObjectErrors& image,
   return judged;
 }
 
+void append(std::vector<Judged>& judged, const std::vector<Judged>& more) {
+  judged.insert(judged.end(), more.begin(), more.end());
+}
+
+int countOf(const std::vector<Judged>& judged, Verdict verdict) {
+  return static_cast<int>(std::count_if(
+      judged.begin(), judged.end(), [&](const Judged& one) { return one.verdict == verdict; }));
+}
+
 /// MSSD, but just right where poses look the same [diameters].
 PairErrors errorsAsSeen(const ObjectErrors& image, const PickingOptions& options) {
   const double just_right = std::nextafter(options.right, 0.0);
@@ -158,18 +167,14 @@ void scoreAsSeen(const std::vector<ObjectErrors>& images,
                  const PickingOptions& options,
                  const std::optional<int>& obj_id,
                  PickingScores& scores) {
-  int found = 0;
-  int wrong = 0;
+  std::vector<Judged> judged;
   for (const ObjectErrors& image : images) {
     if (!isOf(image, obj_id)) continue;
-    const PairErrors errors = errorsAsSeen(image, options);
-    for (const Judged& one : judge(image, errors, options.right, options.min_visible)) {
-      found += one.verdict == Verdict::kFound ? 1 : 0;
-      wrong += one.verdict == Verdict::kFalse ? 1 : 0;
-    }
+    append(judged, judge(image, errorsAsSeen(image, options), options.right, options.min_visible));
   }
+  const int found = countOf(judged, Verdict::kFound);
   scores.recall_as_seen = share(found, scores.parts);
-  scores.precision_as_seen = share(found, found + wrong);
+  scores.precision_as_seen = share(found, found + countOf(judged, Verdict::kFalse));
 }
 
 std::vector<ReliabilityBin> reliabilityOf(const std::vector<Judged>& judged) {
@@ -212,16 +217,13 @@ PickingScores pickingScores(const std::vector<ObjectErrors>& images,
   for (const ObjectErrors& image : images) {
     if (!isOf(image, obj_id)) continue;
     scores.parts += partsToFind(image, options.min_visible);
-    const std::vector<Judged> more = judge(image, image.mssd, options.right, options.min_visible);
-    judged.insert(judged.end(), more.begin(), more.end());
+    append(judged, judge(image, image.mssd, options.right, options.min_visible));
   }
   std::stable_sort(judged.begin(), judged.end(), [](const Judged& a, const Judged& b) {
     return a.score > b.score;
   });
   scores.estimates = static_cast<int>(judged.size());
-  for (const Judged& estimate : judged) {
-    scores.ignored += estimate.verdict == Verdict::kIgnored ? 1 : 0;
-  }
+  scores.ignored = countOf(judged, Verdict::kIgnored);
   scores.curve = curveOf(judged, scores.parts);
   scores.recall = scores.recall_at_99 = scores.average_precision =
       scores.parts == 0 ? kNothing : 0.0;
@@ -251,9 +253,7 @@ double recallAt(const std::vector<ObjectErrors>& images,
   for (const ObjectErrors& image : images) {
     if (!isOf(image, obj_id)) continue;
     parts += partsToFind(image, min_visible);
-    for (const Judged& estimate : judge(image, image.mssd, limit, min_visible)) {
-      found += estimate.verdict == Verdict::kFound ? 1 : 0;
-    }
+    found += countOf(judge(image, image.mssd, limit, min_visible), Verdict::kFound);
   }
   return share(found, parts);
 }

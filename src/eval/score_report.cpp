@@ -126,9 +126,9 @@ std::string scoreMarkdown(const GradedResults& results,
       ".\n\n### Bin picking\n\nRight: MSSD below {} % of the diameter. Parts: those visible >= {} "
       "%. "
       "A right pose of a less visible part ({} of them) counts neither as found nor as false; a "
-      "second one of the same part is false. As seen: a pose is also right that looks like the "
-      "true "
-      "one, so that at most {} % of what is visible of them is {} % of the diameter apart, or "
+      "second one of the same part is false. As seen: a pose is also right that looks like "
+      "the true one, so that at most {} % of what is visible of them is {} % of the diameter "
+      "apart, or "
       "more.\n\n",
       percent(options.right, 0),
       percent(options.min_visible, 0),

@@ -26,6 +26,19 @@ float at(const PosedModel& model, int u, int v) {
   return model.distance_mm.contains(x, y) ? model.distance_mm.at(x, y) : 0.0f;
 }
 
+/// Calls use(measured, estimate, truth) [mm] for the pixels around both models.
+template <typename Use>
+void forEachPixel(const Image<float>& measured_mm,
+                  const PosedModel& estimate,
+                  const PosedModel& truth,
+                  const Use& use) {
+  const PixelBox box = unionOf(estimate.box, truth.box);
+  for (int v = box.y0; v < box.y1; ++v) {
+    for (int u = box.x0; u < box.x1; ++u)
+      use(measured_mm.at(u, v), at(estimate, u, v), at(truth, u, v));
+  }
+}
+
 bool isVisible(float model_mm, float measured_mm, float delta_mm) {
   return model_mm > 0.0f && (measured_mm == 0.0f || model_mm - measured_mm <= delta_mm);
 }
@@ -74,26 +87,20 @@ std::vector<double> vsdErrors(const Image<float>& measured_mm,
                               double diameter_mm,
                               const VsdOptions& options) {
   const float delta = static_cast<float>(options.delta_mm);
-  const PixelBox box = unionOf(estimate.box, truth.box);
   std::vector<int> wrong(options.taus.size(), 0);
   int either = 0;
   int both = 0;
-  for (int v = box.y0; v < box.y1; ++v) {
-    for (int u = box.x0; u < box.x1; ++u) {
-      const float measured = measured_mm.at(u, v);
-      const float found = at(estimate, u, v);
-      const float real = at(truth, u, v);
-      const bool truth_visible = isVisible(real, measured, delta);
-      const bool estimate_visible =
-          isVisible(found, measured, delta) || (truth_visible && found > 0.0f);
-      if (!truth_visible && !estimate_visible) continue;
-      ++either;
-      if (!truth_visible || !estimate_visible) continue;
-      ++both;
-      const double share = std::abs(static_cast<double>(found) - real) / diameter_mm;
-      for (std::size_t i = 0; i < wrong.size(); ++i) wrong[i] += share >= options.taus[i] ? 1 : 0;
-    }
-  }
+  forEachPixel(measured_mm, estimate, truth, [&](float measured, float found, float real) {
+    const bool truth_visible = isVisible(real, measured, delta);
+    const bool estimate_visible =
+        isVisible(found, measured, delta) || (truth_visible && found > 0.0f);
+    if (!truth_visible && !estimate_visible) return;
+    ++either;
+    if (!truth_visible || !estimate_visible) return;
+    ++both;
+    const double share = std::abs(static_cast<double>(found) - real) / diameter_mm;
+    for (std::size_t i = 0; i < wrong.size(); ++i) wrong[i] += share >= options.taus[i] ? 1 : 0;
+  });
   std::vector<double> errors(wrong.size(), 1.0);
   if (either == 0) return errors;
   for (std::size_t i = 0; i < wrong.size(); ++i) {
@@ -107,22 +114,14 @@ double unlikeness(const Image<float>& measured_mm,
                   const PosedModel& truth,
                   double apart_mm) {
   const auto apart = static_cast<float>(apart_mm);
-  const PixelBox box = unionOf(estimate.box, truth.box);
   int either = 0;
   int alike = 0;
-  for (int v = box.y0; v < box.y1; ++v) {
-    for (int u = box.x0; u < box.x1; ++u) {
-      const float measured = measured_mm.at(u, v);
-      if (measured == 0.0f) continue;
-      const float found = at(estimate, u, v);
-      const float real = at(truth, u, v);
-      const bool estimate_seen = isVisible(found, measured, apart);
-      const bool truth_seen = isVisible(real, measured, apart);
-      if (!estimate_seen && !truth_seen) continue;
-      ++either;
-      if (found > 0.0f && real > 0.0f && std::abs(found - real) < apart) ++alike;
-    }
-  }
+  forEachPixel(measured_mm, estimate, truth, [&](float measured, float found, float real) {
+    if (measured == 0.0f) return;
+    if (!isVisible(found, measured, apart) && !isVisible(real, measured, apart)) return;
+    ++either;
+    if (found > 0.0f && real > 0.0f && std::abs(found - real) < apart) ++alike;
+  });
   return either == 0 ? 1.0 : static_cast<double>(either - alike) / either;
 }
 

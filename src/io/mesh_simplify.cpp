@@ -78,27 +78,24 @@ Mesh collapsed(Halfedges halfedges, const std::string& name, double error_mm) {
 }
 
 /// Whether corners, middles of edges and centres of all triangles lie near the other surface.
-bool liesNear(const Mesh& mesh, const Mesh& other, double reach_mm) {
+bool liesNear(const Mesh& mesh, const TriangleTree& other, double reach_mm) {
   constexpr int kTrianglesPerPiece = 256;
-  const TriangleTree tree(other);
   std::atomic<bool> near = true;
-  const auto check = [&](int begin, int end) {
-    for (int i = begin; i < end && near; ++i) {
-      const TriangleCorners at(mesh, mesh.triangles[static_cast<std::size_t>(i)]);
-      const glm::dvec3 points[] = {at.a,
-                                   at.b,
-                                   at.c,
-                                   0.5 * (at.a + at.b),
-                                   0.5 * (at.b + at.c),
-                                   0.5 * (at.c + at.a),
-                                   (at.a + at.b + at.c) / 3.0};
-      const bool all = std::all_of(std::begin(points), std::end(points), [&](const auto& point) {
-        return tree.touches(point, reach_mm);
-      });
-      if (!all) near = false;
-    }
-  };
-  parallelFor(static_cast<int>(mesh.triangles.size()), kTrianglesPerPiece, check);
+  parallelForEach(mesh.triangles.size(), kTrianglesPerPiece, [&](std::size_t i) {
+    if (!near) return;
+    const TriangleCorners at(mesh, mesh.triangles[i]);
+    const glm::dvec3 points[] = {at.a,
+                                 at.b,
+                                 at.c,
+                                 0.5 * (at.a + at.b),
+                                 0.5 * (at.b + at.c),
+                                 0.5 * (at.c + at.a),
+                                 (at.a + at.b + at.c) / 3.0};
+    const bool all = std::all_of(std::begin(points), std::end(points), [&](const auto& point) {
+      return other.touches(point, reach_mm);
+    });
+    if (!all) near = false;
+  });
   return near;
 }
 
@@ -112,11 +109,13 @@ Mesh simplified(const Mesh& mesh, double max_error_mm) {
   const std::optional<Halfedges> halfedges = halfedgesOf(mesh);
   if (!halfedges) return mesh;
   const bool solid = isSolid(mesh);
+  const TriangleTree own(mesh);
   double error_mm = kFirst * max_error_mm;
   for (int i = 0; i < kTries; ++i, error_mm *= 0.5) {
     Mesh result = collapsed(*halfedges, mesh.name, error_mm);
     if (result.triangles.empty() || (solid && !isSolid(result))) continue;
-    if (liesNear(mesh, result, max_error_mm) && liesNear(result, mesh, max_error_mm)) return result;
+    if (liesNear(result, own, max_error_mm) && liesNear(mesh, TriangleTree(result), max_error_mm))
+      return result;
   }
   return mesh;
 }

@@ -16,14 +16,6 @@ namespace {
 
 using Windows = std::vector<std::vector<Candidate>>;  ///< candidates of each window
 
-/// Calls `body(window)` for each, on all cores.
-template <typename Body>
-void forEachWindow(std::size_t count, const Body& body) {
-  parallelFor(static_cast<int>(count), 1, [&](int begin, int end) {
-    for (int w = begin; w < end; ++w) body(static_cast<std::size_t>(w));
-  });
-}
-
 /// Judges rough poses by a few points of their views against the depth image. Unlike Eq. 1 it sees
 /// the difference between surface that is hidden and surface that is not there, which decides on
 /// parts that are partly covered.
@@ -37,7 +29,7 @@ void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineS
   }
   const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
   std::vector<JudgeTask> tasks(views.size());
-  forEachWindow(windows.size(), [&](std::size_t w) {
+  parallelForEach(windows.size(), 1, [&](std::size_t w) {
     std::size_t next = first[w];
     for (const Candidate& candidate : windows[w]) {
       const auto view = static_cast<std::size_t>(candidate.view);
@@ -46,7 +38,7 @@ void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineS
   });
   const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
   const double mean_mm2 = meanVisibleArea(object);
-  forEachWindow(windows.size(), [&](std::size_t w) {
+  parallelForEach(windows.size(), 1, [&](std::size_t w) {
     std::size_t next = first[w];
     for (Candidate& candidate : windows[w]) setVerdict(candidate, verdicts[next++], mean_mm2);
   });
@@ -159,7 +151,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
   RP_CHECK(hypotheses.size() == views * cameras.size(),
            "one hypothesis a view and window is needed");
   Windows windows(cameras.size());
-  forEachWindow(windows.size(), [&](std::size_t w) {
+  parallelForEach(windows.size(), 1, [&](std::size_t w) {
     for (std::size_t i = w * views; i < (w + 1) * views; ++i) {
       const Hypothesis& one = hypotheses[i];
       if (one.error >= kWorstError) continue;
@@ -168,7 +160,7 @@ std::vector<Candidate> bestCandidates(const ReferenceObject& object,
     }
   });
   judgeRoughly(windows, object, scene);
-  forEachWindow(windows.size(), [&](std::size_t w) {
+  parallelForEach(windows.size(), 1, [&](std::size_t w) {
     const std::vector<Candidate>& own = windows[w];
     const Order by_error = ordered(
         own, [](const Candidate& a, const Candidate& b) { return a.rough_error < b.rough_error; });

@@ -287,12 +287,11 @@ Image<std::uint8_t> foregroundMask(const DepthImage& image,
     return std::abs(inside.x) < 0.5 * bin->inner_size_mm.x - margin &&
            std::abs(inside.y) < 0.5 * bin->inner_size_mm.y - margin && inside.z > margin;
   };
-  parallelFor(mask.height(), kRowsPerPiece, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      for (int u = 0; u < mask.width(); ++u) {
-        const double depth = image.depth_mm.at(u, v);
-        if (depth > 0.0 && isKept(image.camera.unproject(u, v, depth))) mask.at(u, v) = 1;
-      }
+  parallelForEach(static_cast<std::size_t>(mask.height()), kRowsPerPiece, [&](std::size_t row) {
+    const int v = static_cast<int>(row);
+    for (int u = 0; u < mask.width(); ++u) {
+      const double depth = image.depth_mm.at(u, v);
+      if (depth > 0.0 && isKept(image.camera.unproject(u, v, depth))) mask.at(u, v) = 1;
     }
   });
   return mask;

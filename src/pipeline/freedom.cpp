@@ -50,19 +50,11 @@ PartView viewOf(const ReferenceObject& object, const Camera& camera, const Pose&
   return view;
 }
 
-/// Calls body(i) for each of `count`, on all cores, `grain` at a time.
-template <typename Body>
-void forEach(std::size_t count, int grain, const Body& body) {
-  parallelFor(static_cast<int>(count), grain, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) body(i);
-  });
-}
-
 /// From the camera to what it measured farthest away [mm].
 double farthestMm(const DepthImage& depth) {
   constexpr int kRowsPerPiece = 16;
   std::vector<double> of_rows(static_cast<std::size_t>(depth.depth_mm.height()), 0.0);
-  forEach(of_rows.size(), kRowsPerPiece, [&](std::size_t y) {
+  parallelForEach(of_rows.size(), kRowsPerPiece, [&](std::size_t y) {
     double farthest_mm2 = 0.0;
     const float* const row = depth.depth_mm.row(static_cast<int>(y));
     for (int x = 0; x < depth.depth_mm.width(); ++x) {
@@ -117,7 +109,7 @@ FoundScene::FoundScene(const std::vector<PoseEstimate>& poses,
       database_(database),
       unexplained_(depth.depth_mm.width(), depth.depth_mm.height(), 1) {
   std::vector<std::vector<std::int32_t>> explained(poses_.size());
-  forEach(poses_.size(), 1, [&](std::size_t i) {
+  parallelForEach(poses_.size(), 1, [&](std::size_t i) {
     const ReferenceObject& object = objectOf(poses_[i]);
     const PartView view = viewOf(object, depth_.camera, poses_[i].pose);
     const double same_mm = sameSurfaceMm(toleranceFor(object, noise_mm_));
@@ -167,7 +159,7 @@ std::vector<double> FoundScene::freedom(const glm::dvec3& direction) const {
   const Camera camera = parallelCamera(ortho);
   const Pose ortho_from_camera = ortho.camera_from_ortho.inverse();
   std::vector<PartView> views(poses_.size());
-  forEach(poses_.size(), 1, [&](std::size_t i) {
+  parallelForEach(poses_.size(), 1, [&](std::size_t i) {
     views[i] = viewOf(objectOf(poses_[i]), camera, ortho_from_camera * poses_[i].pose);
   });
   const NearestParts nearest(views, camera);

@@ -50,18 +50,16 @@ std::vector<std::string> binWarnings(const DepthImage& depth,
     std::vector<double> under_mm;
   };
   std::vector<Row> rows(static_cast<std::size_t>(depth.depth_mm.height()));
-  parallelFor(depth.depth_mm.height(), kRowsPerPiece, [&](int begin, int end) {
-    for (int v = begin; v < end; ++v) {
-      Row& row = rows[static_cast<std::size_t>(v)];
-      for (int u = 0; u < depth.depth_mm.width(); ++u) {
-        const double z_mm = static_cast<double>(depth.depth_mm.at(u, v));
-        if (!(z_mm > 0.0)) continue;
-        const glm::dvec3 point = bin_from_camera * depth.camera.unproject(u, v, z_mm);
-        if (std::abs(point.x) > 0.5 * bin.inner_size_mm.x) continue;
-        if (std::abs(point.y) > 0.5 * bin.inner_size_mm.y) continue;
-        ++row.between;
-        if (-point.z > margin_mm) row.under_mm.push_back(-point.z);
-      }
+  parallelForEach(rows.size(), kRowsPerPiece, [&](std::size_t i) {
+    const int v = static_cast<int>(i);
+    for (int u = 0; u < depth.depth_mm.width(); ++u) {
+      const double z_mm = static_cast<double>(depth.depth_mm.at(u, v));
+      if (!(z_mm > 0.0)) continue;
+      const glm::dvec3 point = bin_from_camera * depth.camera.unproject(u, v, z_mm);
+      if (std::abs(point.x) > 0.5 * bin.inner_size_mm.x) continue;
+      if (std::abs(point.y) > 0.5 * bin.inner_size_mm.y) continue;
+      ++rows[i].between;
+      if (-point.z > margin_mm) rows[i].under_mm.push_back(-point.z);
     }
   });
   std::vector<double> under_mm;

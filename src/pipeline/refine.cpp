@@ -232,11 +232,9 @@ void checkAll(std::vector<Candidate>& candidates,
     tasks.push_back(surfaceTask(
         objectOf(candidate, database), candidate.pose, scene.depth.camera, scene.noise_mm));
   }
-  parallelFor(static_cast<int>(candidates.size()), kCandidatesPerPiece, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      Candidate& candidate = candidates[i];
-      candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
-    }
+  parallelForEach(candidates.size(), kCandidatesPerPiece, [&](std::size_t i) {
+    Candidate& candidate = candidates[i];
+    candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
   });
   setVerdicts(
       candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);

@@ -30,15 +30,6 @@ PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   return box;
 }
 
-/// Calls `body(one, its index)` for each of the entries, on all cores.
-template <typename Entry, typename Body>
-void forEach(const std::vector<Entry*>& entries, const Body& body) {
-  parallelFor(static_cast<int>(entries.size()), 1, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-      body(*entries[i], i);
-  });
-}
-
 }  // namespace
 
 Selection::Selection(const DepthImage& depth,
@@ -80,7 +71,7 @@ void Selection::add(const std::vector<Candidate>& candidates) {
     entry.id = added_++;
     added.push_back(&entry);
   }
-  forEach(added, [&](Entry& entry, std::size_t) { describe(entry); });
+  parallelForEach(added.size(), 1, [&](std::size_t i) { describe(*added[i]); });
   for (Entry* entry : added) findRivals(*entry);
   judgeAmongOthers();
   chosen_ = chosen();
@@ -117,7 +108,7 @@ void Selection::judgeAmongOthers() {
   std::fill(owners_.begin(), owners_.end(), kNobody);
   std::vector<Entry*> hiding = chosen();
   std::erase_if(hiding, [](const Entry* one) { return one->candidate.confidence < kFound; });
-  forEach(hiding, [&](Entry& entry, std::size_t) { findExits(entry); });
+  parallelForEach(hiding.size(), 1, [&](std::size_t i) { findExits(*hiding[i]); });
   for (const Entry* entry : hiding) {
     found.add(entry->pixels, entry->exit_mm);
     for (const std::int32_t at : entry->pixels) owners_.data()[at] = entry->id;
@@ -254,7 +245,8 @@ std::vector<Candidate> Selection::turnedCopies() {
       turned.push_back(entry.get());
   }
   std::vector<std::vector<Candidate>> copies_of(turned.size());
-  forEach(turned, [&](Entry& entry, std::size_t i) {
+  parallelForEach(turned.size(), 1, [&](std::size_t i) {
+    Entry& entry = *turned[i];
     entry.turned = true;
     copies_of[i] =
         rangepose::turnedCopies(entry.candidate,

@@ -42,11 +42,7 @@ int renderGrain(const StageSet& stages, std::size_t tasks) {
 template <typename Result, typename Task, typename Make>
 std::vector<Result> forEachTask(const std::vector<Task>& tasks, int grain, const Make& make) {
   std::vector<Result> results(tasks.size());
-  parallelFor(static_cast<int>(tasks.size()), grain, [&](int begin, int end) {
-    for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-      results[i] = make(tasks[i]);
-    }
-  });
+  parallelForEach(tasks.size(), grain, [&](std::size_t i) { results[i] = make(tasks[i]); });
   return results;
 }
 
