@@ -8,7 +8,7 @@
 namespace rangepose {
 namespace {
 
-constexpr FileKind kDatabase = {{'R', 'P', 'D', 'B'}, 3, "database", "build the database again"};
+constexpr FileKind kDatabase = {{'R', 'P', 'D', 'B'}, 4, "database", "build the database again"};
 constexpr std::size_t kMaxSymmetries = 1000;
 constexpr int kMaxViews = 65536;
 
@@ -31,9 +31,13 @@ Mesh readMesh(ByteReader& in) {
   return mesh;
 }
 
+void writePoses(ByteWriter& out, const std::vector<Pose>& poses) {
+  out.value(static_cast<std::uint64_t>(poses.size()));
+  out.array(poses.data(), poses.size());
+}
+
 void writeSymmetries(ByteWriter& out, const Symmetries& symmetries) {
-  out.value(static_cast<std::uint64_t>(symmetries.discrete.size()));
-  out.array(symmetries.discrete.data(), symmetries.discrete.size());
+  writePoses(out, symmetries.discrete);
   out.value(static_cast<std::uint64_t>(symmetries.continuous.size()));
   out.array(symmetries.continuous.data(), symmetries.continuous.size());
 }
@@ -42,18 +46,24 @@ bool finite(const glm::dvec3& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-Symmetries readSymmetries(ByteReader& in) {
-  Symmetries symmetries;
-  symmetries.discrete.resize(in.count(sizeof(Pose)));
-  in.array(symmetries.discrete.data(), symmetries.discrete.size());
-  symmetries.continuous.resize(in.count(sizeof(SymmetryAxis)));
-  in.array(symmetries.continuous.data(), symmetries.continuous.size());
-  bool sound = symmetries.discrete.size() <= kMaxSymmetries &&
-               symmetries.continuous.size() <= kMaxSymmetries;
-  for (const Pose& pose : symmetries.discrete) {
+std::vector<Pose> readPoses(ByteReader& in, const char* what) {
+  std::vector<Pose> poses(in.count(sizeof(Pose)));
+  in.array(poses.data(), poses.size());
+  bool sound = poses.size() <= kMaxSymmetries;
+  for (const Pose& pose : poses) {
     sound = sound && finite(pose.rotation[0]) && finite(pose.rotation[1]) &&
             finite(pose.rotation[2]) && finite(pose.translation_mm);
   }
+  if (!sound) in.fail(std::string("impossible ") + what);
+  return poses;
+}
+
+Symmetries readSymmetries(ByteReader& in) {
+  Symmetries symmetries;
+  symmetries.discrete = readPoses(in, "symmetries");
+  symmetries.continuous.resize(in.count(sizeof(SymmetryAxis)));
+  in.array(symmetries.continuous.data(), symmetries.continuous.size());
+  bool sound = symmetries.continuous.size() <= kMaxSymmetries;
   for (const SymmetryAxis& axis : symmetries.continuous) {
     sound = sound && finite(axis.direction) && finite(axis.point_mm);
   }
@@ -65,6 +75,7 @@ void writeObject(ByteWriter& out, const ReferenceObject& object) {
   out.value(static_cast<std::int32_t>(object.id));
   writeMesh(out, object.mesh);
   writeSymmetries(out, object.symmetries);
+  writePoses(out, object.twins);
   out.value(object.center_mm);
   out.value(object.radius_mm);
   out.value(object.diameter_mm);
@@ -93,6 +104,7 @@ ReferenceObject readObject(ByteReader& in) {
   object.id = in.value<std::int32_t>();
   object.mesh = readMesh(in);
   object.symmetries = readSymmetries(in);
+  object.twins = readPoses(in, "twins");
   object.center_mm = in.value<glm::dvec3>();
   object.radius_mm = in.value<double>();
   object.diameter_mm = in.value<double>();

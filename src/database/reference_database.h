@@ -26,13 +26,16 @@ void measureShape(ReferenceObject& object);
 ///
 /// The bounding sphere fills the tile but for a margin of kTileMarginPx, so no view is cut off.
 ///
-/// Its symmetries are left empty: set them (findSymmetries), or poses that are the same by symmetry
-/// compete with each other and share their confidence.
+/// Its symmetries are left empty: set them (setSymmetries, findSymmetries), or poses that are the
+/// same by symmetry compete with each other and share their confidence.
 ReferenceObject describeObject(const Mesh& mesh,
                                int id,
                                int size_px,
                                const std::vector<glm::dmat3>& rotations,
                                const ChannelOptions& options);
+
+/// Sets the symmetries of an object and finds its twins, which depend on them.
+void setSymmetries(ReferenceObject& object, const Symmetries& symmetries);
 
 /// Pixels between the bounding sphere and the border of a tile: room for an edge and its
 /// neighbours.

@@ -6,6 +6,7 @@
 #include "geometry/flat_faces.h"
 #include "geometry/solid.h"
 #include "geometry/surface_sample.h"
+#include "geometry/twins.h"
 
 namespace rangepose {
 
@@ -34,6 +35,11 @@ void measureShape(ReferenceObject& object) {
     object.thickness_mm = std::min(object.thickness_mm, sheet_mm);
   object.flat_face = largestExtent(faces);
   object.stability = stabilityCovariance(object.mesh, {object.center_mm, object.radius_mm});
+}
+
+void setSymmetries(ReferenceObject& object, const Symmetries& symmetries) {
+  object.symmetries = symmetries;
+  object.twins = findTwins(object.mesh, symmetries);
 }
 
 ReferenceObject describeObject(const Mesh& mesh,

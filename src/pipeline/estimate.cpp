@@ -139,6 +139,10 @@ class Estimator {
     candidates.insert(candidates.end(), others.begin(), others.end());
     settle(candidates, database_, scene);
     selection.add(candidates);
+    std::vector<Candidate> twins = selection.twinsOfChosen();
+    if (twins.empty()) return;
+    checkTwins(twins, database_, scene);
+    selection.addTwins(twins);
   }
 
  private:
@@ -260,7 +264,7 @@ PassEffort EstimateOptions::effort(int pass) const {
   // alignment finds what that leaves.
   const int most = search.simplex.max_iterations;
   const PassEffort one{3, most, 1, 256, 16, {2, 900, 3, 1e-4}};
-  constexpr PassEffort kQuick{40, 30, 2, 80, 4, {1, 450, 2, 1e-3}};
+  constexpr PassEffort kQuick{40, 30, 2, 160, 4, {1, 450, 2, 1e-3}};
   constexpr PassEffort kClose{20, 40, 2, 256, 12, {1, 450, 3, 1e-3}};
   PassEffort result = max_poses == 1 ? one : pass == 0 ? kQuick : kClose;
   result.iterations = std::min(result.iterations, most);

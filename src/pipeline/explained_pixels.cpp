@@ -37,7 +37,7 @@ JudgedPixels judgedPixels(const Image<SurfaceTexel>& surface,
 
 // Fitted, as the weights of confidence.cpp, on pairs of a right and a wrong pose for one surface.
 double Votes::logOdds() const {
-  constexpr double kFew = 4.0;  // px that may err
+  constexpr double kFew = 2.0;  // px that may err
   constexpr double kWeight = 2.0;
   return kWeight * std::log((first + kFew) / (second + kFew));
 }

@@ -266,6 +266,8 @@ void unlessWorse(std::vector<Candidate>& candidates, const Refine& refine) {
   }
 }
 
+/// Odds of e^-2: no long alignment makes such a pose right.
+constexpr double kHopeless = -2.0;
 constexpr int kFinePoints = 900;  // of a surface, for a pose that is to rest
 
 }  // namespace
@@ -277,8 +279,6 @@ void refineFinely(std::vector<Candidate>& candidates,
   // What its view's points explain of a mean visible area. Of 2,365 parts in tuning bins this loses
   // one, and it spares half of the rendering; the best is rendered in any case.
   constexpr double kFaint = 0.15;
-  // Odds of e^-2: no long alignment makes such a pose right.
-  constexpr double kHopeless = -2.0;
   if (candidates.empty()) return;
   candidates.erase(std::remove_if(candidates.begin() + 1,
                                   candidates.end(),
@@ -334,6 +334,13 @@ void settle(std::vector<Candidate>& candidates,
     for (int round = 0; round < kRounds; ++round) alignPixels(candidates, database, scene);
     checkAll(candidates, database, scene);
   });
+}
+
+void checkTwins(std::vector<Candidate>& candidates,
+                const ReferenceDatabase& database,
+                const RefineScene& scene) {
+  checkAll(candidates, database, scene);
+  std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
 }
 
 }  // namespace rangepose

@@ -88,6 +88,13 @@ void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene);
 
+/// Checks twins of settled poses (geometry/twins.h) as they are and drops those that are beyond
+/// hope. They are not aligned: where the image leaves them some freedom, each would come to rest
+/// elsewhere, by more than what tells one from the other.
+void checkTwins(std::vector<Candidate>& candidates,
+                const ReferenceDatabase& database,
+                const RefineScene& scene);
+
 /// Surfaces of an object closer than this count as the same [mm].
 double toleranceFor(const ReferenceObject& object, double noise_mm);
 

@@ -290,6 +290,35 @@ std::vector<Candidate> Selection::take(const std::vector<Entry*>& entries) {
   return candidates;
 }
 
+std::vector<Candidate> Selection::twinsOfChosen() const {
+  std::vector<Candidate> twins;
+  for (const Entry* entry : chosen_) {
+    for (const Pose& twin : objectOf(*entry).twins) {
+      twins.push_back(entry->alone);
+      twins.back().pose = entry->alone.pose * twin;
+    }
+  }
+  return twins;
+}
+
+void Selection::addTwins(const std::vector<Candidate>& twins) {
+  std::vector<Candidate> better;
+  for (const Candidate& twin : twins) {
+    const Entry* known = find(twin);
+    if (known != nullptr) {
+      Entry entry;
+      entry.candidate = twin;
+      describe(entry);
+      const auto all = [](std::int32_t) { return true; };
+      const Votes votes = votesBetween(entry.judged.near, known->judged.near, closeMm(*known), all);
+      if (votes.first < votes.second) continue;
+      erase(known);
+    }
+    better.push_back(twin);
+  }
+  add(better);
+}
+
 void Selection::takeOut(Image<std::uint8_t>& mask) const {
   for (const Entry* entry : chosen_) {
     if (entry->candidate.confidence < kSure) continue;

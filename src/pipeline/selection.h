@@ -42,6 +42,12 @@ class Selection {
   std::vector<Candidate> takeTies();
   /// Takes the chosen poses out, each judged by itself: likewise.
   std::vector<Candidate> takeChosen();
+  /// Twins of the chosen poses (geometry/twins.h): to be checked and given to addTwins().
+  std::vector<Candidate> twinsOfChosen() const;
+  /// Adds checked twins of chosen poses. Where there is a pose like one already, the one stays that
+  /// the pixels are for: an alignment of its own may have left it a little off, by more than what
+  /// tells it from its twin.
+  void addTwins(const std::vector<Candidate>& twins);
   /// Takes what sure poses explain, with or without rivals, out of the mask of pixels. What unsure
   /// ones explain stays: the right pose may not have been found yet.
   void takeOut(Image<std::uint8_t>& mask) const;

@@ -39,6 +39,7 @@ ReferenceDatabase smallDatabase() {
   symmetries.discrete.push_back({rotationFromVector({0.0, 0.0, 3.0}), {1.0, 2.0, 3.0}});
   symmetries.discrete.push_back({rotationFromVector({0.5, 0.0, 0.0}), {4.0, 5.0, 6.0}});
   symmetries.continuous.push_back({{0.0, 1.0, 0.0}, {7.0, 8.0, 9.0}});
+  database.objects[0].twins.push_back({rotationFromVector({3.1, 0.0, 0.0}), {1.5, 2.5, 3.5}});
   return database;
 }
 
@@ -52,17 +53,21 @@ std::string messageFor(const std::vector<char>& bytes) {
   return "accepted";
 }
 
+void expectSamePoses(const std::vector<Pose>& actual, const std::vector<Pose>& expected) {
+  ASSERT_EQ(actual.size(), expected.size());
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    EXPECT_EQ(actual[i].rotation, expected[i].rotation);
+    EXPECT_EQ(actual[i].translation_mm, expected[i].translation_mm);
+  }
+}
+
 void expectSameObject(const ReferenceObject& actual, const ReferenceObject& expected) {
   EXPECT_EQ(actual.id, expected.id);
   EXPECT_EQ(actual.mesh.name, expected.mesh.name);
   EXPECT_EQ(actual.mesh.vertices, expected.mesh.vertices);
   EXPECT_EQ(actual.mesh.triangles, expected.mesh.triangles);
-  ASSERT_EQ(actual.symmetries.discrete.size(), expected.symmetries.discrete.size());
-  for (std::size_t i = 0; i < expected.symmetries.discrete.size(); ++i) {
-    EXPECT_EQ(actual.symmetries.discrete[i].rotation, expected.symmetries.discrete[i].rotation);
-    EXPECT_EQ(actual.symmetries.discrete[i].translation_mm,
-              expected.symmetries.discrete[i].translation_mm);
-  }
+  expectSamePoses(actual.symmetries.discrete, expected.symmetries.discrete);
+  expectSamePoses(actual.twins, expected.twins);
   ASSERT_EQ(actual.symmetries.continuous.size(), expected.symmetries.continuous.size());
   for (std::size_t i = 0; i < expected.symmetries.continuous.size(); ++i) {
     EXPECT_EQ(actual.symmetries.continuous[i].direction,
@@ -171,7 +176,7 @@ TEST(DatabaseFileTest, OtherFilesAndVersionsAreTold) {
               HasSubstr("not a rangepose database"));
   std::vector<char> newer = serialize(smallDatabase());
   newer[4] = static_cast<char>(newer[4] + 1);
-  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 4"), HasSubstr("reads version 3")));
+  EXPECT_THAT(messageFor(newer), AllOf(HasSubstr("version 5"), HasSubstr("reads version 4")));
 }
 
 TEST(DatabaseFileTest, ADatabaseWithoutObjectsIsRefused) {

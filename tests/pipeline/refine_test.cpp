@@ -96,6 +96,21 @@ TEST_F(RefinedPoseTest, AllPixelsTogetherKnowThePoseFarBetterThanOneIsMeasured) 
   EXPECT_GT(pose.confidence, 0.9) << "it was not judged where it rests";
 }
 
+TEST_F(RefinedPoseTest, ATwinThatIsBeyondHopeIsDropped) {
+  const Image<std::uint8_t> all(640, 480, 1);
+  const std::unique_ptr<StageSet> stages = makeHostStages();
+  const std::unique_ptr<ResidentDepth> depth = stages->uploadDepth(image_, all);
+  const Enclosure nothing(image_, {}, std::nullopt, database_, kNoiseMm);
+  std::vector<Candidate> candidates(2);
+  for (Candidate& candidate : candidates) candidate.rank = 9.0;  // that of the pose it is a twin of
+  candidates[0].pose = right_;
+  candidates[1].pose = off({0.0, 2.0, 0.0}, {0.0, 0.0, -60.0});
+  checkTwins(candidates, database_, {image_, *depth, kNoiseMm, nothing, *stages});
+  ASSERT_EQ(candidates.size(), 1U) << "what was known of its twin was taken for its own";
+  EXPECT_EQ(errorMm(candidates[0].pose), 0.0) << "it must lie where its twin lies";
+  EXPECT_NE(candidates[0].rank, 9.0);
+}
+
 TEST_F(RefinedPoseTest, APoseThatAlignmentMakesWorseStays) {
   const Pose start = off({}, {0.5, 0.0, 0.0});
   const double unreached = 100.0;

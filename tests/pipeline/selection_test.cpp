@@ -177,6 +177,48 @@ TEST_F(TurnedBarTest, WhatIsChosenIsTakenOutAsItWasFound) {
   EXPECT_TRUE(selection.takeChosen().empty());
 }
 
+/// Half a turn about the bar's upright axis.
+Pose halfTurn() { return {rotationFromVector({0.0, 0.0, std::numbers::pi}), glm::dvec3(0.0)}; }
+
+TEST_F(TurnedBarTest, TheTwinOfAChosenPoseLiesOnIt) {
+  show(0.0);
+  database_.objects[0].twins = {halfTurn()};
+  Selection selection(image_, database_, 0.1, 0.4);
+  EXPECT_TRUE(selection.twinsOfChosen().empty());
+  selection.add({right_});
+  const std::vector<Candidate> twins = selection.twinsOfChosen();
+  ASSERT_EQ(twins.size(), 1u);
+  EXPECT_LT(rotationAngleBetween(twins[0].pose.rotation, turned_.pose.rotation), 1e-6);
+  EXPECT_LT(glm::distance(twins[0].pose.translation_mm, turned_.pose.translation_mm), 1e-9);
+}
+
+TEST_F(TurnedBarTest, ARivalThatWasLeftALittleOffGivesWayToTheTwin) {
+  show(0.0);
+  database_.objects[0].twins = {halfTurn()};
+  Candidate off = turned_;
+  off.pose.translation_mm += glm::dvec3(1.5, 0.5, 0.6);
+  Selection selection(image_, database_, 0.1, 0.4);
+  selection.add({right_, off});
+  ASSERT_EQ(selection.choose().size(), 1u);
+  EXPECT_GT(selection.choose()[0].confidence, 0.7)
+      << "the rival is off, so that it seems to be worse";
+  selection.addTwins(selection.twinsOfChosen());
+  const std::vector<Candidate> poses = selection.choose();
+  ASSERT_EQ(poses.size(), 1u);
+  EXPECT_LT(poses[0].confidence, 0.5) << "nothing tells which way round the bar lies";
+}
+
+TEST_F(TurnedBarTest, ATwinThatThePixelsAreAgainstDoesNotReplaceAnything) {
+  show(0.0);
+  database_.objects[0].twins = {halfTurn()};
+  database_.objects[0].twins[0].translation_mm = {1.5, 0.5, 0.6};
+  Selection selection(image_, database_, 0.1, 0.4);
+  selection.add({right_, turned_});
+  selection.addTwins(selection.twinsOfChosen());
+  ASSERT_EQ(selection.choose().size(), 1u);
+  EXPECT_LT(selection.choose()[0].confidence, 0.5) << "the rival that lies right is gone";
+}
+
 TEST_F(TurnedBarTest, WhatIsDecidedIsNotLookedAtAgain) {
   show(5.0);
   Selection selection(image_, database_, 0.1, 0.4);

@@ -47,7 +47,7 @@ ReferenceDatabase databaseOf(const std::string& part) {
   database.objects.push_back(describeObject(
       readMesh(path, LengthUnit::kMillimetre), 1, kSize, uniformRotations(kViews), options));
   ReferenceObject& object = database.objects.front();
-  object.symmetries = findSymmetries(object.mesh);
+  setSymmetries(object, findSymmetries(object.mesh));
   host::renderReferences(object, options, {});
   return database;
 }

@@ -152,6 +152,40 @@ TEST(TouchingTest, BracketsFaceToFaceAreFoundInPart) {
   EXPECT_EQ(judged.wrong, 0);
 }
 
+/// The same after half a turn about any of its axes but for a boss of 2 mm on one face, z upwards
+/// there.
+Mesh blockWithBoss() {
+  Mesh mesh = test::meshOf({{{-37.0, -13.0, 0.0}, {37.0, 13.0, 18.0}},
+                            {{-20.0, -20.0, 4.0}, {-8.0, 20.0, 14.0}},
+                            {{8.0, -20.0, 4.0}, {20.0, 20.0, 14.0}},
+                            {{22.0, -7.0, 18.0}, {34.0, 7.0, 20.0}}});
+  mesh.name = "block with a boss";
+  return mesh;
+}
+
+/// A score that a pose whose rival is as likely does not have.
+constexpr double kNoTie = 0.75;
+
+TEST(NearlySymmetricTest, LiesTheRightWayRoundWhereThatIsSeen) {
+  const Judged judged = searched(
+      blockWithBoss(),
+      {placed({0.0, 0.0, 0.4}, {-70.0, 0.0, 0.0}), placed({0.0, 0.0, 2.6}, {70.0, 0.0, 0.0})});
+  EXPECT_EQ(judged.right, 2);
+  EXPECT_EQ(judged.wrong, 0);
+  EXPECT_GT(judged.least_right, kNoTie);
+}
+
+TEST(NearlySymmetricTest, NothingIsClaimedWhereItIsNot) {
+  // On its boss: of the two poses that are left either may be the one.
+  const ReferenceDatabase database = test::databaseOfMeshes({blockWithBoss()});
+  ASSERT_EQ(database.objects[0].twins.size(), 3U);
+  const Judged judged = searched(database,
+                                 {placed({kHalfTurn, 0.0, 0.0}, {-60.0, 0.0, 20.0}),
+                                  placed({kHalfTurn, 0.0, 0.0}, {60.0, 30.0, 20.0})});
+  EXPECT_LT(judged.best_wrong, kNoTie) << "a robot would rely on it";
+  EXPECT_TRUE(judged.right == 0 || judged.least_right < kNoTie) << "right by chance, yet sure";
+}
+
 /// Only the corners of the head tell how the bolt is turned, and nothing but the head or the end
 /// face is seen.
 TEST(BoltTest, SeenEndOnFromEitherEnd) {

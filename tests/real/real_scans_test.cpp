@@ -45,7 +45,7 @@ class RealScansTest : public ::testing::Test {
                                               kSize,
                                               uniformRotations(1024),
                                               options));
-    database.objects.front().symmetries = findSymmetries(database.objects.front().mesh);
+    setSymmetries(database.objects.front(), findSymmetries(database.objects.front().mesh));
     host::renderReferences(database.objects.front(), options, {});
     return database;
   }

@@ -17,7 +17,6 @@ namespace {
 
 using test::Random;
 
-
 /// A bumpy wall with holes and nearer pieces.
 struct Wall {
   explicit Wall(bool orthographic) : depth_mm(120, 90) {

@@ -23,7 +23,7 @@ inline ReferenceDatabase databaseOfMeshes(const std::vector<Mesh>& meshes, int v
   for (const Mesh& mesh : meshes) {
     const int id = static_cast<int>(database.objects.size()) + 1;
     database.objects.push_back(describeObject(mesh, id, 64, uniformRotations(views), options));
-    database.objects.back().symmetries = findSymmetries(mesh);
+    setSymmetries(database.objects.back(), findSymmetries(mesh));
     host::renderReferences(database.objects.back(), options, {});
   }
   return database;

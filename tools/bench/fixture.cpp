@@ -63,7 +63,7 @@ Fixture::Views& Fixture::views(int count) {
   const ChannelOptions options = channelOptionsFor(kSizePx);
   made->database.objects.push_back(
       describeObject(mesh(), 1, kSizePx, uniformRotations(count), options));
-  made->database.objects.front().symmetries = findSymmetries(mesh());
+  setSymmetries(made->database.objects.front(), findSymmetries(mesh()));
   if (context_) {
     gles::renderReferences(*context_, made->database.objects.front(), options);
   } else {

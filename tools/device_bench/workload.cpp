@@ -32,7 +32,7 @@ Workload::Workload(int views, int starts) {
   depth = heapOf(mesh);
   const ChannelOptions channels = channelOptionsFor(kSizePx);
   database.objects.push_back(describeObject(mesh, 1, kSizePx, uniformRotations(views), channels));
-  database.objects.front().symmetries = findSymmetries(mesh);
+  setSymmetries(database.objects.front(), findSymmetries(mesh));
   host::renderReferences(database.objects.front(), channels, {});
   options.starts = starts;
   const std::unique_ptr<StageSet> host = makeHostStages();

@@ -99,6 +99,12 @@ double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
+/// How many other ways round a part is nearly the same: poses that often compete.
+std::string twinsNote(const ReferenceObject& object) {
+  const std::size_t twins = object.twins.size();
+  return twins == 0 ? "" : fmt::format(", {} twin{}", twins, twins == 1 ? "" : "s");
+}
+
 class Builder {
  public:
   explicit Builder(const BuildArguments& arguments)
@@ -124,7 +130,7 @@ class Builder {
     if (!chosen.note.empty()) notes_.push_back(chosen.note);
     ReferenceObject object =
         describeObject(withoutDetail(mesh), file.id, arguments_.size, chosen.rotations, options);
-    object.symmetries = symmetries;
+    setSymmetries(object, symmetries);
     warnAboutSize(object, arguments_.unit);
     render(object, options);
     std::cout << fmt::format("{:>6}  {:<20} {:>9} {:>12.2f} {:>9.3f} {:>6} {:>8.2f}  {}{}\n",
@@ -135,7 +141,7 @@ class Builder {
                              object.pixel_mm,
                              object.views.size(),
                              secondsSince(begin),
-                             symmetryName(symmetries),
+                             symmetryName(symmetries) + twinsNote(object),
                              file.symmetries ? " (models_info.json)" : "")
               << std::flush;
     return object;

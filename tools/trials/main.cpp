@@ -58,7 +58,7 @@ std::vector<Part> loadParts(const TrialOptions& options) {
     part.database.objects.push_back(
         describeObject(mesh, 1, kSize, uniformRotations(options.views), channels));
     host::renderReferences(part.database.objects.front(), channels, {});
-    part.database.objects.front().symmetries = findSymmetries(mesh);
+    setSymmetries(part.database.objects.front(), findSymmetries(mesh));
     part.symmetries = test::symmetriesOf(name, mesh);
     parts.push_back(std::move(part));
   }
