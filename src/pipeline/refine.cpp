@@ -339,8 +339,15 @@ void settle(std::vector<Candidate>& candidates,
 void checkTwins(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
+  constexpr double kHeld = 1e-3;  // of the diameter: what moves by more is free to move
   checkAll(candidates, database, scene);
   std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
+  const std::vector<Candidate> before = candidates;
+  settle(candidates, database, scene);
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const PoseDistance distance(objectOf(candidates[i], database));
+    if (!distance.below(kHeld, before[i].pose, candidates[i].pose)) candidates[i] = before[i];
+  }
 }
 
 }  // namespace rangepose

@@ -88,9 +88,9 @@ void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene);
 
-/// Checks twins of settled poses (geometry/twins.h) as they are and drops those that are beyond
-/// hope. They are not aligned: where the image leaves them some freedom, each would come to rest
-/// elsewhere, by more than what tells one from the other.
+/// Checks twins of settled poses (geometry/twins.h), drops those that are beyond hope, and brings
+/// the others to rest as long as they stay where they are: where the image leaves them some
+/// freedom, each would come to rest elsewhere, by more than what tells one from the other.
 void checkTwins(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene);

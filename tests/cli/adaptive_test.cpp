@@ -59,7 +59,7 @@ TEST_F(AdaptiveTest, ANewPartIsSimulatedOnceAndKept) {
   const RunResult first = build({"--bins", "1", "--statistics", "pictures"});
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_EQ(first.err, "");
-  EXPECT_THAT(first.out, ContainsRegex("1 +wedge +8 .* 60 +[0-9.]+ +none\n"));
+  EXPECT_THAT(first.out, ContainsRegex("1 +wedge +8 .* 60 +[0-9.]+ +none, 1 twin\n"));
   EXPECT_THAT(first.out, ContainsRegex("wedge: [0-9]+ parts in 1 bins, simulated in [0-9]+ s"));
   EXPECT_THAT(
       files(),

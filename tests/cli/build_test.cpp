@@ -107,7 +107,7 @@ TEST_F(BuildTest, SymmetriesOfModelsInfoComeFirst) {
                   "symmetries_discrete": [[-1,0,0,0, 0,-1,0,0, 0,0,1,0, 0,0,0,1]]}})");
   const RunResult result = buildBopSet();
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C2 \\(models_info.json\\)\n"));
+  EXPECT_THAT(result.out, ContainsRegex(" 7  obj_000007 .* C2, 2 twins \\(models_info.json\\)\n"));
 }
 
 TEST_F(BuildTest, SymmetriesThatModelsInfoForgetsAreNamed) {

@@ -107,7 +107,7 @@ TEST_F(RefinedPoseTest, ATwinThatIsBeyondHopeIsDropped) {
   candidates[1].pose = off({0.0, 2.0, 0.0}, {0.0, 0.0, -60.0});
   checkTwins(candidates, database_, {image_, *depth, kNoiseMm, nothing, *stages});
   ASSERT_EQ(candidates.size(), 1U) << "what was known of its twin was taken for its own";
-  EXPECT_EQ(errorMm(candidates[0].pose), 0.0) << "it must lie where its twin lies";
+  EXPECT_LT(errorMm(candidates[0].pose), 0.01) << "it must lie where its twin lies";
   EXPECT_NE(candidates[0].rank, 9.0);
 }
 
