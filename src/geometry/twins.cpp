@@ -14,8 +14,8 @@
 namespace rangepose {
 namespace {
 
-/// Rotations of which the rough search is that sure or more are looked at [share of the diameter, a
-/// mean distance]: a pocket or a boss moves the mean by little.
+/// The rough search gives rotations that move the surface off itself by no more [share of the
+/// diameter, a mean distance]: a pocket or a boss moves the mean by little.
 constexpr double kRoughReach = 0.05;
 constexpr double kNearly = 4.0;  // tolerances, before the last steps
 /// Two twins closer than this are the same one.

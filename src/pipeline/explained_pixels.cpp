@@ -35,7 +35,8 @@ JudgedPixels judgedPixels(const Image<SurfaceTexel>& surface,
   return pixels;
 }
 
-// Fitted, as the weights of confidence.cpp, on pairs of a right and a wrong pose for one surface.
+// The weight is fitted, as those of confidence.cpp, on pairs of a right and a wrong pose for one
+// surface; how many pixels may err was chosen on bins of parts that have twins.
 double Votes::logOdds() const {
   constexpr double kFew = 2.0;  // px that may err
   constexpr double kWeight = 2.0;

@@ -41,11 +41,10 @@ std::uint64_t newReferenceSerial();
 struct ReferenceObject {
   /// Another one whenever the views were rendered or read: what caches of an object go by.
   std::uint64_t serial = newReferenceSerial();
-  int id = 1;             ///< BOP object id
-  Mesh mesh;              ///< [mm], in the object's own frame
-  Symmetries symmetries;  ///< rotations that leave it the same; empty: none, or not looked for
-  std::vector<Pose>
-      twins;  ///< rotations that leave most of it the same (geometry/twins.h); likewise
+  int id = 1;                 ///< BOP object id
+  Mesh mesh;                  ///< [mm], in the object's own frame
+  Symmetries symmetries;      ///< rotations that leave it the same; empty: none, or not looked for
+  std::vector<Pose> twins;    ///< other ways round that are nearly the same (geometry/twins.h)
   glm::dvec3 center_mm{0.0};  ///< centre of the bounding sphere, in the object's frame [mm]
   double radius_mm = 0.0;     ///< of that sphere [mm]
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
