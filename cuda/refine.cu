@@ -1,5 +1,6 @@
 #include "cuda/check.h"
 #include "cuda/refine.h"
+#include "cuda/storage.h"
 
 namespace rangepose::cuda {
 namespace {
@@ -18,13 +19,6 @@ struct DepthAt {
   __device__ float operator()(bool where, int u, int v) const {
     return where ? __ldg(depth_mm + v * width + u) : 0.0f;
   }
-};
-
-/// Memory for a type whose constructor must not run for each thread.
-template <typename T>
-struct Storage {
-  alignas(T) unsigned char bytes[sizeof(T)];
-  __device__ T& get() { return *reinterpret_cast<T*>(bytes); }
 };
 
 template <int kThreads>

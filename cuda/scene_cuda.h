@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "cuda/buffer.h"
@@ -77,6 +78,9 @@ class CudaScene : public ResidentScene {
 class CudaDepth : public ResidentDepth {
  public:
   CudaDepth(const DepthImage& image, const Image<std::uint8_t>& keep, Workspace& workspace);
+  /// Of buffers that are filled already, all three.
+  CudaDepth(const Camera& camera, std::shared_ptr<DepthBuffers> buffers)
+      : camera_(camera), masked_(true), buffers_(std::move(buffers)) {}
 
   const Camera& camera() const { return camera_; }
   DepthPixels pixels() const;

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "cuda/check.h"
+#include "cuda/foreground_cuda.h"
 #include "cuda/refine_cuda.h"
 #include "cuda/scene_cuda.h"
 #include "cuda/search_cuda.h"
@@ -27,6 +28,7 @@ class CudaStages : public StageSet {
   CudaStages(gles::Context* context, DeviceImage::Memory memory, bool staged)
       : drawing_(context != nullptr ? gles::makeGlesStages(*context) : makeHostStages()),
         workspace_(context, memory),
+        foreground_(workspace_),
         searcher_(workspace_, staged),
         refiner_(workspace_, context),
         context_(context),
@@ -122,6 +124,13 @@ class CudaStages : public StageSet {
                                              const Image<std::uint8_t>& keep) override {
     return std::make_unique<CudaDepth>(depth, keep, workspace_);
   }
+  std::unique_ptr<ResidentForeground> foreground(const DepthImage& measured,
+                                                 const ForegroundTask& task) override {
+    return foreground_.find(measured, task);
+  }
+  LateralExtent extent(const ResidentDepth& depth) override {
+    return foreground_.extent(cudaDepth(depth));
+  }
   std::vector<IcpResult> align(const ResidentDepth& depth,
                                const std::vector<AlignTask>& tasks) override {
     return refiner_.align(cudaDepth(depth), tasks);
@@ -142,6 +151,7 @@ class CudaStages : public StageSet {
  private:
   std::unique_ptr<StageSet> drawing_;
   Workspace workspace_;
+  ForegroundFinder foreground_;
   Searcher searcher_;
   Refiner refiner_;
   gles::Context* context_;

@@ -69,18 +69,6 @@ FlatFace faceAround(const Mesh& mesh,
 
 }  // namespace
 
-PlaneExtent extentInPlane(const glm::dmat3& covariance, const glm::dvec3& normal) {
-  const glm::dvec3 helper = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 a = glm::normalize(glm::cross(normal, helper));
-  const glm::dvec3 b = glm::cross(normal, a);
-  const double aa = glm::dot(a, covariance * a);
-  const double ab = glm::dot(a, covariance * b);
-  const double bb = glm::dot(b, covariance * b);
-  const double spread = std::sqrt(std::max(0.0, 0.25 * (aa - bb) * (aa - bb) + ab * ab));
-  const double middle = 0.5 * (aa + bb);
-  return {std::sqrt(12.0 * (middle + spread)), std::sqrt(12.0 * std::max(0.0, middle - spread))};
-}
-
 std::vector<FlatFace> flatFaces(const Mesh& mesh, double tolerance_mm) {
   checkMesh(mesh);
   const std::vector<double> until = cumulativeAreas(mesh);

@@ -1,8 +1,10 @@
 // The flat faces of a mesh: how large they are, and how thick the part is behind them.
 #pragma once
 
+#include <cmath>
 #include <vector>
 
+#include "core/device.h"
 #include "core/glm.h"
 #include "geometry/mesh.h"
 
@@ -19,7 +21,19 @@ struct PlaneExtent {
 };
 
 /// Of points with that covariance [mm^2], in the plane with that unit normal.
-PlaneExtent extentInPlane(const glm::dmat3& covariance, const glm::dvec3& normal);
+RP_HD PlaneExtent extentInPlane(const glm::dmat3& covariance, const glm::dvec3& normal) {
+  const bool along_x = normal.x >= 0.9 || normal.x <= -0.9;
+  const glm::dvec3 helper = along_x ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+  const glm::dvec3 a = glm::normalize(glm::cross(normal, helper));
+  const glm::dvec3 b = glm::cross(normal, a);
+  const double aa = glm::dot(a, covariance * a);
+  const double ab = glm::dot(a, covariance * b);
+  const double bb = glm::dot(b, covariance * b);
+  const double spread = std::sqrt(0.25 * (aa - bb) * (aa - bb) + ab * ab);
+  const double middle = 0.5 * (aa + bb);
+  const double narrow = middle > spread ? middle - spread : 0.0;
+  return {std::sqrt(12.0 * (middle + spread)), std::sqrt(12.0 * narrow)};
+}
 
 /// What of a mesh lies near the plane of one of its triangles and faces as that does.
 struct FlatFace {

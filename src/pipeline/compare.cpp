@@ -89,6 +89,9 @@ class Chained {
           const Run& subject,
           const std::string& path)
       : database_(database), reference_(reference), subject_(subject), path_(path) {
+    foreground_.addImages(reference.trace.foreground,
+                          subject.trace.foreground,
+                          [](std::uint8_t a, std::uint8_t b) { return a == b ? 0.0 : 1.0; });
     for (std::size_t i = 0; i < reference.trace.objects.size(); ++i) {
       compareObject(reference.trace.objects[i], subject.trace.objects[i]);
     }
@@ -96,6 +99,7 @@ class Chained {
     const auto time = [&](Tally& tally, const char* stage) {
       tally.addTimes(reference.msOf(stage), subject.msOf(stage));
     };
+    time(foreground_, "foreground");
     time(scene_, "scene and starts");
     time(windows_, "windows");
     time(errors_, "rough search");
@@ -104,7 +108,8 @@ class Chained {
 
   std::vector<StageComparison> results() const {
     std::vector<StageComparison> all;
-    for (const Tally* tally : {&scene_,
+    for (const Tally* tally : {&foreground_,
+                               &scene_,
                                &patches_,
                                &starts_,
                                &windows_,
@@ -168,6 +173,7 @@ class Chained {
   const Run& reference_;
   const Run& subject_;
   const std::string path_;
+  Tally foreground_{"whole foreground", path_};
   Tally scene_{"scene", path_};
   Tally patches_{"scene patches", path_};
   Tally starts_{"starts", path_};
@@ -261,7 +267,7 @@ Comparison comparePaths(const DepthImage& depth,
   {
     const Run recorded = run(reference);
     comparison.isolated =
-        compareIsolated(depth, database, recorded.estimate, recorded.trace, reference, subject);
+        compareIsolated(depth, bin, database, recorded.estimate, recorded.trace, reference, subject);
   }
   // By now both paths have made what they make once, so these times compare.
   const Run expected = run(reference);

@@ -9,6 +9,7 @@
 #include "pipeline/compare_refine.h"
 #include "pipeline/compare_search.h"
 #include "pipeline/compare_tally.h"
+#include "pipeline/foreground_task.h"
 #include "pipeline/scene_window.h"
 
 namespace rangepose {
@@ -25,6 +26,17 @@ class Isolated {
         reference_(reference),
         subject_(subject),
         search_(reference, subject) {}
+
+  void foreground(const ForegroundTask& task) {
+    const auto [expected, actual] = foreground_.run(reference_, subject_, [&](StageSet& stages) {
+      return stages.foreground(depth_, task);
+    });
+    const Foreground& a = expected->on_host;
+    const Foreground& b = actual->on_host;
+    foreground_.addImages(
+        a.mask, b.mask, [](std::uint8_t x, std::uint8_t y) { return x == y ? 0.0 : 1.0; });
+    foreground_.addImages(a.depth.depth_mm, b.depth.depth_mm);
+  }
 
   void compareObject(const ReferenceObject& object, const ObjectTrace& trace) {
     imageStages(trace.scene.camera, trace.scene_options);
@@ -56,7 +68,7 @@ class Isolated {
   std::vector<StageComparison> results() const {
     std::vector<StageComparison> all;
     for (const Tally* tally :
-         {&resample_, &median_, &edges_, &edt_, &distance_, &patches_, &prepare_}) {
+         {&foreground_, &resample_, &median_, &edges_, &edt_, &distance_, &patches_, &prepare_}) {
       all.push_back(tally->result());
     }
     for (const StageComparison& result : search_.results()) all.push_back(result);
@@ -128,6 +140,7 @@ class Isolated {
   StageSet& reference_;
   StageSet& subject_;
   SearchComparison search_;
+  Tally foreground_{"foreground", subject_.name()};
   Tally resample_{"resample", subject_.name()};
   Tally median_{"median", subject_.name()};
   Tally edges_{"edges", subject_.name()};
@@ -150,12 +163,14 @@ std::optional<Pose> roughPose(const ReferenceObject& object, const ObjectTrace& 
 }  // namespace
 
 std::vector<StageComparison> compareIsolated(const DepthImage& depth,
+                                             const std::optional<BinBox>& bin,
                                              const ReferenceDatabase& database,
                                              const Estimate& estimate,
                                              const EstimateTrace& trace,
                                              StageSet& reference,
                                              StageSet& subject) {
   Isolated isolated(depth, trace, reference, subject);
+  isolated.foreground(foregroundTaskFor(database, bin));
   for (std::size_t i = 0; i < trace.objects.size(); ++i) {
     const ReferenceObject& object = database.objects[i];
     if (trace.objects[i].scene.range_px.empty()) continue;  // nothing stands out of the background

@@ -9,6 +9,7 @@ namespace rangepose {
 
 /// `estimate` and `trace` are those of the reference.
 std::vector<StageComparison> compareIsolated(const DepthImage& depth,
+                                             const std::optional<BinBox>& bin,
                                              const ReferenceDatabase& database,
                                              const Estimate& estimate,
                                              const EstimateTrace& trace,

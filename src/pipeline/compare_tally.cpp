@@ -14,6 +14,9 @@ struct NamedTolerance {
 // with 256 and 1,024 views.
 constexpr NamedTolerance kTolerances[] = {
     // Isolated.
+    // Mask and depth without lost pixels. Planes and noise are sums in another order, 1e-12 of what
+    // they are: a pixel whose height is the tolerance to that may fall to either side.
+    {"foreground", {"", 0.0, 1.0e-5}},
     {"resample", {"px", 0.0, 0.0}},
     {"median", {"px", 0.0, 0.0}},
     {"edges", {"", 0.0, 0.0}},
@@ -44,6 +47,7 @@ constexpr NamedTolerance kTolerances[] = {
     {"surface alignment", {"mm", 0.5, 0.05}},
     {"surface verdict", {"", 0.01, 0.05}},
     // Chained.
+    {"whole foreground", {"", 0.0, 1.0e-5}},
     {"scene", {"px", 6.0e-6, 0.0}},
     {"scene patches", {"", 0.0, 0.0}},
     {"starts", {"px", 1.0e-3, 0.0}},  // a mean range is added up in doubles

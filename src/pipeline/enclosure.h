@@ -6,7 +6,7 @@
 
 #include "core/camera.h"
 #include "database/reference_database.h"
-#include "pipeline/foreground.h"
+#include "stages/foreground.h"
 
 namespace rangepose {
 

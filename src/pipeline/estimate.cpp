@@ -4,8 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "pipeline/depth_noise.h"
-#include "pipeline/dropouts.h"
+#include "pipeline/foreground_task.h"
 #include "pipeline/input_warnings.h"
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
@@ -46,21 +45,20 @@ struct Pass {
 
 class Estimator {
  public:
-  /// `foreground` is all of it; noise and background of the image are in `result`.
-  Estimator(const DepthImage& depth,
-            const Image<std::uint8_t>& foreground,
+  /// Noise and background of the image are in `result`.
+  Estimator(const ResidentForeground& scene,
             const std::optional<BinBox>& bin,
             const ReferenceDatabase& database,
             const EstimateOptions& options,
             StageSet& stages,
             Estimate& result)
-      : depth_(depth),
+      : depth_(scene.on_host.depth),
+        whole_(*scene.resident),
         database_(database),
         options_(options),
         stages_(stages),
         result_(result),
-        whole_(stages.uploadDepth(depth, foreground)),
-        enclosure_(depth, result.background, bin, database, result.noise_mm),
+        enclosure_(depth_, result.background, bin, database, result.noise_mm),
         tried_(database.objects.size()) {}
 
   /// Sect. 5 to 7 on what is left of the foreground, from starts that were not tried before.
@@ -75,7 +73,7 @@ class Estimator {
     // Nothing is taken out before the first pass.
     const std::unique_ptr<ResidentDepth> left =
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
-    const ResidentDepth& resident = left ? *left : *whole_;
+    const ResidentDepth& resident = left ? *left : whole_;
     const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_};
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
@@ -118,7 +116,7 @@ class Estimator {
     constexpr int kVerified = 3;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
-    const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
+    const RefineScene scene{depth_, whole_, result_.noise_mm, enclosure_, stages_};
     copies = refineTurned(copies, database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -132,7 +130,7 @@ class Estimator {
   /// rivals, or nearly, and at these.
   void settleChosen(Selection& selection) {
     const ScopedTimer timer(result_.times, "settle");
-    const RefineScene scene{depth_, *whole_, result_.noise_mm, enclosure_, stages_};
+    const RefineScene scene{depth_, whole_, result_.noise_mm, enclosure_, stages_};
     std::vector<Candidate> candidates = selection.takeTies();
     refineTies(candidates, database_, scene);
     const std::vector<Candidate> others = selection.takeChosen();
@@ -154,7 +152,7 @@ class Estimator {
                                      int wanted,
                                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
-    const OrthoCamera camera = sceneCamera(depth_, foreground, object.pixel_mm, kMaxScenePx);
+    const OrthoCamera camera = sceneCamera(stages_.extent(resident), object.pixel_mm, kMaxScenePx);
     if (camera.width == 0) return {};
     // Twice the passes of a reference, as the paper's 15 at 128 px for 7 at 64 px.
     ChannelOptions channel_options = channelOptionsOf(object);
@@ -246,11 +244,11 @@ class Estimator {
   }
 
   const DepthImage& depth_;
+  const ResidentDepth& whole_;  ///< with all of the foreground
   const ReferenceDatabase& database_;
   const EstimateOptions& options_;
   StageSet& stages_;
   Estimate& result_;
-  std::unique_ptr<ResidentDepth> whole_;  ///< with all of the foreground
   Enclosure enclosure_;
   int passes_ = 0;
   std::vector<std::vector<glm::dvec3>> tried_;  ///< starts of each object so far
@@ -315,21 +313,18 @@ Estimate estimatePoses(const DepthImage& measured,
     const std::vector<std::string> of_bin = binWarnings(measured, *bin, database);
     result.warnings.insert(result.warnings.end(), of_bin.begin(), of_bin.end());
   }
-  DepthImage depth;
-  Image<std::uint8_t> foreground;
+  std::unique_ptr<ResidentForeground> scene;
   {
     const ScopedTimer timer(result.times, "foreground");
-    const Image<std::uint8_t> everything(measured.depth_mm.width(), measured.depth_mm.height(), 1);
-    result.noise_mm = estimateDepthNoise(measured, everything);
-    depth = fillDropouts(measured, result.noise_mm);
-    const ForegroundOptions foreground_options = foregroundOptionsFor(database, result.noise_mm);
-    result.background = findBackground(depth, foreground_options);
-    foreground = foregroundMask(depth, result.background, bin, foreground_options);
+    scene = stages.foreground(measured, foregroundTaskFor(database, bin));
   }
-  if (trace != nullptr) trace->foreground = foreground;
-  Estimator estimator(depth, foreground, bin, database, options, stages, result);
-  Selection selection(depth, database, result.noise_mm, options.min_score);
-  Image<std::uint8_t> rest = foreground;
+  const Foreground& on_host = scene->on_host;
+  result.noise_mm = on_host.noise_mm;
+  result.background = on_host.background;
+  if (trace != nullptr) trace->foreground = on_host.mask;
+  Estimator estimator(*scene, bin, database, options, stages, result);
+  Selection selection(on_host.depth, database, result.noise_mm, options.min_score);
+  Image<std::uint8_t> rest = on_host.mask;
   std::vector<Candidate> chosen;
   // Passes on what is left, until all its starts were tried before, or two found nothing.
   for (int fruitless = 0; fruitless < kFruitlessPasses;) {
@@ -348,7 +343,7 @@ Estimate estimatePoses(const DepthImage& measured,
     chosen = selection.choose();
     const bool enough = static_cast<int>(chosen.size()) >= options.max_poses;
     if (pass.starts == 0 || enough || options.max_poses == 1) break;
-    rest = foreground;
+    rest = on_host.mask;
     selection.takeOut(rest);
     fruitless = chosen.size() > before ? 0 : fruitless + 1;
   }

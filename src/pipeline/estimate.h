@@ -8,10 +8,10 @@
 #include "core/camera.h"
 #include "core/timings.h"
 #include "database/reference_database.h"
-#include "pipeline/foreground.h"
 #include "pipeline/refine.h"
 #include "pipeline/seeds.h"
 #include "stages/check_host.h"
+#include "stages/foreground.h"
 #include "stages/icp_host.h"
 #include "stages/stage_set.h"
 

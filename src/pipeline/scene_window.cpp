@@ -8,31 +8,16 @@
 
 namespace rangepose {
 
-OrthoCamera sceneCamera(const DepthImage& image,
-                        const Image<std::uint8_t>& mask,
-                        double pixel_mm,
-                        int max_px) {
-  glm::dvec2 low(std::numeric_limits<double>::max());
-  glm::dvec2 high(std::numeric_limits<double>::lowest());
-  bool any = false;
-  for (int v = 0; v < mask.height(); ++v) {
-    for (int u = 0; u < mask.width(); ++u) {
-      if (mask.at(u, v) == 0) continue;
-      const glm::dvec2 point(image.camera.unproject(u, v, image.depth_mm.at(u, v)));
-      low = glm::min(low, point);
-      high = glm::max(high, point);
-      any = true;
-    }
-  }
+OrthoCamera sceneCamera(const LateralExtent& all, double pixel_mm, int max_px) {
   OrthoCamera camera;
-  if (!any) return camera;
+  if (all.empty()) return camera;
   constexpr int kBorderPx = 2;
-  const glm::dvec2 extent = high - low;
+  const glm::dvec2 extent = all.high - all.low;
   const double usable = max_px - 2.0 * kBorderPx - 1.0;
   camera.pixel_mm = std::max(pixel_mm, std::max(extent.x, extent.y) / usable);
   camera.width = static_cast<int>(std::ceil(extent.x / camera.pixel_mm)) + 1 + 2 * kBorderPx;
   camera.height = static_cast<int>(std::ceil(extent.y / camera.pixel_mm)) + 1 + 2 * kBorderPx;
-  camera.camera_from_ortho.translation_mm = glm::dvec3(0.5 * (low + high), 0.0);
+  camera.camera_from_ortho.translation_mm = glm::dvec3(0.5 * (all.low + all.high), 0.0);
   return camera;
 }
 

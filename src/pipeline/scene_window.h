@@ -1,20 +1,16 @@
 // The virtual orthographic cameras through which a scene is looked at.
 #pragma once
 
-#include <cstdint>
-
 #include "core/camera.h"
+#include "stages/foreground.h"
 #include "stages/reference.h"
 #include "stages/search.h"
 
 namespace rangepose {
 
-/// Looks along the sensor's axis at all pixels of the mask, at `pixel_mm` a pixel or, where that
-/// would make more than `max_px` pixels along a side, coarser. Width 0 when the mask is empty.
-OrthoCamera sceneCamera(const DepthImage& image,
-                        const Image<std::uint8_t>& mask,
-                        double pixel_mm,
-                        int max_px);
+/// Looks along the sensor's axis at all points of that extent, at `pixel_mm` a pixel or, where that
+/// would make more than `max_px` pixels along a side, coarser. Width 0 when there is none.
+OrthoCamera sceneCamera(const LateralExtent& extent, double pixel_mm, int max_px);
 
 /// Looks along the sensor's viewing ray through `point_mm` (camera frame), which lies in the middle
 /// of the image: there an orthographic reference is a good model of what a perspective sensor sees.

@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "stages/foreground_host.h"
 
 namespace rangepose {
 namespace {
@@ -51,6 +52,19 @@ std::vector<Result> forEachTask(const std::vector<Task>& tasks, int grain, const
 std::unique_ptr<ResidentDepth> StageSet::uploadDepth(const DepthImage& depth,
                                                      const Image<std::uint8_t>& keep) {
   return std::make_unique<HostDepth>(depth, keep);
+}
+
+std::unique_ptr<ResidentForeground> StageSet::foreground(const DepthImage& measured,
+                                                         const ForegroundTask& task) {
+  auto found = std::make_unique<ResidentForeground>();
+  found->on_host = host::foreground(measured, task);
+  found->resident = uploadDepth(found->on_host.depth, found->on_host.mask);
+  return found;
+}
+
+LateralExtent StageSet::extent(const ResidentDepth& depth) {
+  const auto& own = static_cast<const HostDepth&>(depth);
+  return host::extentOf(own.depth, own.keep);
 }
 
 std::unique_ptr<ResidentScene> StageSet::prepare(const ResidentDepth& depth,

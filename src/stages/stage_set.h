@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "stages/check_host.h"
+#include "stages/foreground.h"
 #include "stages/icp_host.h"
 #include "stages/reference.h"
 #include "stages/scene_channels.h"
@@ -43,6 +44,12 @@ using ViewPoints = std::vector<std::vector<SurfacePoint>>;  ///< by view
 class ResidentDepth {
  public:
   virtual ~ResidentDepth() = default;
+};
+
+/// A foreground, with its depth image and mask also where the path keeps them.
+struct ResidentForeground {
+  Foreground on_host;
+  std::unique_ptr<ResidentDepth> resident;
 };
 
 /// A pose to be aligned with the depth image without background; contract in icp_host.h.
@@ -137,6 +144,11 @@ class StageSet {
   /// `keep` as in `resample`. Both must outlive the result.
   virtual std::unique_ptr<ResidentDepth> uploadDepth(const DepthImage& depth,
                                                      const Image<std::uint8_t>& keep);
+  /// Contract in foreground_host.h.
+  virtual std::unique_ptr<ResidentForeground> foreground(const DepthImage& measured,
+                                                         const ForegroundTask& task);
+  /// Of all that is kept.
+  virtual LateralExtent extent(const ResidentDepth& depth);
   /// As `prepare` of the same image and mask.
   virtual std::unique_ptr<ResidentScene> prepare(const ResidentDepth& depth,
                                                  const OrthoCamera& camera,

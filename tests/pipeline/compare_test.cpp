@@ -104,6 +104,13 @@ class Bent : public StageSet {
     if (bent_ == "search winners") all[all.size() - 1].error = 0.0f;
     return all;
   }
+  std::unique_ptr<ResidentForeground> foreground(const DepthImage& measured,
+                                                 const ForegroundTask& task) override {
+    std::unique_ptr<ResidentForeground> found = StageSet::foreground(measured, task);
+    // One row of the image.
+    if (bent_ == "foreground") std::fill_n(found->on_host.mask.data(), measured.camera.width, 1);
+    return found;
+  }
   std::vector<IcpResult> align(const ResidentDepth& depth,
                                const std::vector<AlignTask>& tasks) override {
     return moved(StageSet::align(depth, tasks), "alignment");
@@ -218,7 +225,8 @@ TEST_P(BentStage, IsNamed) {
 
 INSTANTIATE_TEST_SUITE_P(AllStages,
                          BentStage,
-                         testing::Values(std::pair("resample", "isolated resample"),
+                         testing::Values(std::pair("foreground", "isolated foreground"),
+                                         std::pair("resample", "isolated resample"),
                                          std::pair("median", "isolated median"),
                                          std::pair("edges", "isolated edges"),
                                          std::pair("edt", "isolated edt"),

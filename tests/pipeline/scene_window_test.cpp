@@ -7,6 +7,7 @@
 
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
+#include "stages/foreground_host.h"
 #include "stages/reference_host.h"
 #include "support/box_mesh.h"
 #include "support/range_scenes.h"
@@ -98,7 +99,7 @@ TEST_P(SensorTest, SceneCameraCoversTheMask) {
     }
   }
   for (const int max_px : {64, 200, 1024}) {
-    const OrthoCamera camera = sceneCamera(image, mask, 1.5, max_px);
+    const OrthoCamera camera = sceneCamera(host::extentOf(image, mask), 1.5, max_px);
     EXPECT_LE(camera.width, max_px);
     EXPECT_LE(camera.height, max_px);
     EXPECT_GE(camera.pixel_mm, 1.5);
@@ -118,19 +119,19 @@ TEST_P(SensorTest, SceneCameraCoversTheMask) {
     // Not larger than it must be.
     EXPECT_GT(widest, std::max(camera.width, camera.height) - 8.0);
   }
-  EXPECT_EQ(sceneCamera(image, mask, 1.5, 1024).pixel_mm, 1.5);
+  EXPECT_EQ(sceneCamera(host::extentOf(image, mask), 1.5, 1024).pixel_mm, 1.5);
 }
 
 TEST_P(SensorTest, SceneCameraOfAnEmptyMaskIsEmpty) {
   const DepthImage image{sensor(), Image<float>(640, 480, 500.0f)};
-  EXPECT_EQ(sceneCamera(image, Image<std::uint8_t>(640, 480, 0), 1.0, 1024).width, 0);
+  EXPECT_EQ(sceneCamera(host::extentOf(image, Image<std::uint8_t>(640, 480, 0)), 1.0, 1024).width, 0);
 }
 
 TEST_P(SensorTest, SceneCameraOfOnePixelShowsIt) {
   const DepthImage image{sensor(), Image<float>(640, 480, 500.0f)};
   Image<std::uint8_t> mask(640, 480, 0);
   mask.at(77, 401) = 1;
-  const OrthoCamera camera = sceneCamera(image, mask, 1.0, 1024);
+  const OrthoCamera camera = sceneCamera(host::extentOf(image, mask), 1.0, 1024);
   ASSERT_GT(camera.width, 0);
   const glm::dvec3 pixel = camera.pixelFromOrtho(camera.camera_from_ortho.inverse() *
                                                  image.camera.unproject(77, 401, 500.0));

@@ -26,6 +26,14 @@ double peakMemoryMb() {
   return 0.0;
 }
 
+/// Mean times of the stages of a frame, of their sums over all iterations [ms].
+void countStages(benchmark::State& state, const std::map<std::string, double>& sums_ms) {
+  for (const auto& [stage, sum_ms] : sums_ms) {
+    state.counters[stage + "_ms"] =
+        benchmark::Counter(sum_ms, benchmark::Counter::kAvgIterations);
+  }
+}
+
 void addFrame(Fixture& fixture,
               const Path& path,
               const std::string& image_name,
@@ -41,13 +49,12 @@ void addFrame(Fixture& fixture,
     // The first frame packs or uploads the views.
     Estimate estimate = estimatePoses(depth, std::nullopt, database, options, *path.stages);
     resetPeakMemory();
-    double search_ms = 0.0;
+    std::map<std::string, double> ms;
     for (auto _ : state) {
       estimate = estimatePoses(depth, std::nullopt, database, options, *path.stages);
-      for (const StageTime& time : estimate.times)
-        search_ms += time.stage == "rough search" ? time.ms : 0.0;
+      for (const StageTime& time : estimate.times) ms[time.stage] += time.ms;
     }
-    state.counters["search_ms"] = benchmark::Counter(search_ms, benchmark::Counter::kAvgIterations);
+    countStages(state, ms);
     state.counters["peak_MB"] = peakMemoryMb();
     state.counters["score"] = estimate.poses.empty() ? 0.0 : estimate.poses.front().confidence;
   });
@@ -66,8 +73,7 @@ void addAllParts(Fixture& fixture, const Path& path, int views) {
       estimate = estimatePoses(bin.image, bin.box, database, options, *path.stages);
       for (const StageTime& time : estimate.times) ms[time.stage] += time.ms;
     }
-    for (const auto& [stage, sum] : ms)
-      state.counters[stage + "_ms"] = benchmark::Counter(sum, benchmark::Counter::kAvgIterations);
+    countStages(state, ms);
     state.counters["poses"] = static_cast<double>(estimate.poses.size());
   });
 }

@@ -1,7 +1,7 @@
 // The image stages: depth image to channels, patches and windows.
 #include "bench/fixture.h"
 #include "bench/measure.h"
-#include "pipeline/depth_noise.h"
+#include "pipeline/foreground_task.h"
 
 namespace rangepose::bench {
 namespace {
@@ -14,16 +14,11 @@ double pixelsOf(const OrthoCamera& camera) {
   return static_cast<double>(camera.width) * camera.height;
 }
 
-void addForeground(Fixture& fixture) {
-  add("BM_Foreground/host/640x480", [&fixture](benchmark::State& state) {
+void addForeground(Fixture& fixture, const Path& path) {
+  add("BM_Foreground/" + path.name + "/640x480", [&fixture, path](benchmark::State& state) {
     const DepthImage& depth = fixture.demo();
-    ForegroundOptions options;
-    options.part_mm = fixture.database(kViews).objects.front().diameter_mm;
-    for (auto _ : state) {
-      const Image<std::uint8_t> mask =
-          foregroundMask(depth, findBackground(depth, options), std::nullopt, options);
-      benchmark::DoNotOptimize(estimateDepthNoise(depth, mask));
-    }
+    const ForegroundTask task = foregroundTaskFor(fixture.database(kViews), std::nullopt);
+    for (auto _ : state) benchmark::DoNotOptimize(path.stages->foreground(depth, task));
     rate(state, "pixels", static_cast<double>(depth.depth_mm.size()));
   });
 }
@@ -64,8 +59,8 @@ void addWindows(Fixture& fixture, const Path& path) {
 }  // namespace
 
 void registerStageBenchmarks(Fixture& fixture) {
-  addForeground(fixture);
   for (const Path& path : fixture.paths()) {
+    addForeground(fixture, path);
     addSceneStage(
         fixture, path, "Resample", [&fixture](StageSet& stages, const ObjectTrace& trace) {
           return stages.resample(

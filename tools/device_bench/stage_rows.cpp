@@ -1,4 +1,5 @@
 #include "device_bench/rows.h"
+#include "pipeline/foreground_task.h"
 
 namespace rangepose::device_bench {
 namespace {
@@ -33,6 +34,11 @@ class StageRows {
     const Image<float>& edges = trace.scene.edges;
     const int passes = trace.scene_options.edt_passes;
     StageSet& stages = *path_.stages;
+    // Three digits of the noise, lost pixels, mask; planes are tried on samples.
+    const ForegroundTask task = foregroundTaskFor(load_.database, std::nullopt);
+    add("foreground", imageWork(load_.depth.depth_mm, 29.0, 30.0), [&] {
+      stages.foreground(load_.depth, task);
+    });
     add("resample", imageWork(load_.depth.depth_mm, 4.0, 40.0), [&] {
       stages.resample(load_.depth, load_.trace.foreground, trace.scene.camera);
     });

@@ -4,11 +4,10 @@
 #include <cmath>
 
 #include "core/parallel.h"
-#include "pipeline/depth_noise.h"
-#include "pipeline/dropouts.h"
-#include "pipeline/foreground.h"
+#include "pipeline/foreground_task.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/selection.h"
+#include "stages/foreground_host.h"
 
 namespace rangepose::peers {
 namespace {
@@ -70,15 +69,12 @@ std::vector<Candidate> PpfEstimator::estimate(const DepthImage& measured,
                                               const std::optional<BinBox>& bin) {
   constexpr int kNormalReach = 3;
   constexpr double kIcpSpacing = 0.012;  // [share of the diameter]
-  const Image<std::uint8_t> everything(measured.depth_mm.width(), measured.depth_mm.height(), 1);
-  const double noise_mm = estimateDepthNoise(measured, everything);
-  const DepthImage depth = fillDropouts(measured, noise_mm);
-  const ForegroundOptions background = foregroundOptionsFor(database_, noise_mm);
-  const std::vector<BackgroundPlane> planes = findBackground(depth, background);
-  const Image<std::uint8_t> foreground = foregroundMask(depth, planes, bin, background);
-  const Enclosure enclosure(depth, planes, bin, database_, noise_mm);
+  const Foreground foreground = host::foreground(measured, foregroundTaskFor(database_, bin));
+  const DepthImage& depth = foreground.depth;
+  const double noise_mm = foreground.noise_mm;
+  const Enclosure enclosure(depth, foreground.background, bin, database_, noise_mm);
   Scene scene{Verdict(depth, database_, enclosure, noise_mm),
-              cloudOf(depth, foreground, kNormalReach),
+              cloudOf(depth, foreground.mask, kNormalReach),
               {},
               {}};
   std::vector<Candidate> poses;

@@ -1,5 +1,5 @@
 // What is kept of a depth image and what is background.
-#include "pipeline/foreground.h"
+#include "stages/foreground_host.h"
 
 #include <gtest/gtest.h>
 
@@ -106,13 +106,13 @@ struct TableScene {
 TEST(ForegroundTest, TableIsFoundAndOnlyTheTableRemoved) {
   const TableScene scene;
   const ForegroundOptions options = optionsFor(62.0);
-  const std::vector<BackgroundPlane> planes = findBackground(scene.image, options);
+  const std::vector<BackgroundPlane> planes = host::findBackground(scene.image, options);
   ASSERT_EQ(planes.size(), 1u);
   const glm::dvec3 up = scene.pose.rotation[2];
   EXPECT_GT(glm::dot(planes[0].normal, up), std::cos(0.01));
   EXPECT_NEAR(planes[0].heightOf(scene.pose.translation_mm), 0.0, 0.5);
   EXPECT_GT(planes[0].heightOf(glm::dvec3(0.0)), 0.0) << "normal points away from the camera";
-  const Image<std::uint8_t> mask = foregroundMask(scene.image, planes, std::nullopt, options);
+  const Image<std::uint8_t> mask = host::foregroundMask(scene.image, planes, std::nullopt, options);
   const Tally tally = tallyOf(scene.image, mask, scene.parts, scene.pose, 4.0);
   EXPECT_EQ(tally.other_kept, 0) << "of " << tally.other;
   EXPECT_EQ(tally.parts_kept, tally.parts);
@@ -121,8 +121,8 @@ TEST(ForegroundTest, TableIsFoundAndOnlyTheTableRemoved) {
 
 TEST(ForegroundTest, SameAnswerTwice) {
   const TableScene scene;
-  const std::vector<BackgroundPlane> first = findBackground(scene.image, optionsFor(62.0));
-  const std::vector<BackgroundPlane> second = findBackground(scene.image, optionsFor(62.0));
+  const std::vector<BackgroundPlane> first = host::findBackground(scene.image, optionsFor(62.0));
+  const std::vector<BackgroundPlane> second = host::findBackground(scene.image, optionsFor(62.0));
   ASSERT_EQ(first.size(), second.size());
   ASSERT_FALSE(first.empty());
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -149,12 +149,12 @@ TEST(ForegroundTest, FloorAndWallsAreRemoved) {
   DepthImage image = emptyBin(bin, {-1.0, 1.0});
   const Image<std::uint8_t> parts = addParts(image, threeParts(), bin);
   const ForegroundOptions options = optionsFor(62.0);
-  const std::vector<BackgroundPlane> planes = findBackground(image, options);
+  const std::vector<BackgroundPlane> planes = host::findBackground(image, options);
   ASSERT_EQ(planes.size(), 3u);
   EXPECT_GT(glm::dot(planes[0].normal, bin.rotation[2]), std::cos(0.01));
   for (std::size_t i = 1; i < 3; ++i)
     EXPECT_GT(std::abs(glm::dot(planes[i].normal, bin.rotation[0])), std::cos(0.02));
-  const Image<std::uint8_t> mask = foregroundMask(image, planes, std::nullopt, options);
+  const Image<std::uint8_t> mask = host::foregroundMask(image, planes, std::nullopt, options);
   const Tally tally = tallyOf(image, mask, parts, bin, 4.0);
   EXPECT_EQ(tally.other_kept, 0) << "of " << tally.other;
   EXPECT_EQ(tally.parts_kept, tally.parts);
@@ -185,9 +185,9 @@ TEST(ForegroundTest, HeapWithoutFloorLosesNothing) {
       measured.data()[i] = 1;
     }
     const ForegroundOptions options = optionsFor(diameter(mesh));
-    const std::vector<BackgroundPlane> planes = findBackground(image, options);
+    const std::vector<BackgroundPlane> planes = host::findBackground(image, options);
     EXPECT_TRUE(planes.empty()) << "seed " << seed;
-    EXPECT_TRUE(foregroundMask(image, planes, std::nullopt, options) == measured);
+    EXPECT_TRUE(host::foregroundMask(image, planes, std::nullopt, options) == measured);
   }
 }
 
@@ -197,9 +197,9 @@ TEST(ForegroundTest, FlatPartsSideBySideKeepTheirFaces) {
       test::meshOf({boxAt(-65.0, -20.0, {60.0, 40.0, 6.0}), boxAt(3.0, -20.0, {60.0, 40.0, 6.0})});
   const Image<std::uint8_t> shown = addParts(image, parts, aboveTable(420.0));
   const ForegroundOptions options = optionsFor(72.0);
-  const std::vector<BackgroundPlane> planes = findBackground(image, options);
+  const std::vector<BackgroundPlane> planes = host::findBackground(image, options);
   EXPECT_TRUE(planes.empty());
-  EXPECT_TRUE(foregroundMask(image, planes, std::nullopt, options) == shown);
+  EXPECT_TRUE(host::foregroundMask(image, planes, std::nullopt, options) == shown);
 }
 
 /// A bin with a wall, a box, and a large sheet behind which nothing lies.
@@ -221,20 +221,20 @@ TEST(ForegroundTest, SheetThatLeansInTheBinIsNoWall) {
   const SheetInABin scene;
   ForegroundOptions options = optionsFor(100.0);
   options.tolerance_mm = 0.6;
-  const std::vector<BackgroundPlane> without = findBackground(scene.image, options);
+  const std::vector<BackgroundPlane> without = host::findBackground(scene.image, options);
   EXPECT_EQ(without.size(), 3u) << "the sheet alone could not be told from a wall";
   options.flat_face = {80.0, 60.0};
-  const std::vector<BackgroundPlane> planes = findBackground(scene.image, options);
+  const std::vector<BackgroundPlane> planes = host::findBackground(scene.image, options);
   ASSERT_EQ(planes.size(), 2u) << "floor and wall";
-  const Image<std::uint8_t> mask = foregroundMask(scene.image, planes, std::nullopt, options);
+  const Image<std::uint8_t> mask = host::foregroundMask(scene.image, planes, std::nullopt, options);
   const Tally tally = tallyOf(scene.image, mask, scene.sheet, scene.bin, 4.0);
   EXPECT_EQ(tally.parts_kept, tally.parts) << "a part in plain view would be lost";
   EXPECT_GT(tally.parts, 1000);
 }
 
 TEST(ForegroundTest, EmptyImageHasNoBackground) {
-  EXPECT_TRUE(findBackground(nothing(), optionsFor(62.0)).empty());
-  const Image<std::uint8_t> mask = foregroundMask(nothing(), {}, std::nullopt, optionsFor(62.0));
+  EXPECT_TRUE(host::findBackground(nothing(), optionsFor(62.0)).empty());
+  const Image<std::uint8_t> mask = host::foregroundMask(nothing(), {}, std::nullopt, optionsFor(62.0));
   EXPECT_TRUE(mask == Image<std::uint8_t>(320, 240, 0));
 }
 
@@ -245,7 +245,7 @@ TEST(ForegroundTest, BoxRemovesWhatIsOutsideAndItsFloor) {
   BinBox bin;
   bin.camera_from_bin = scene.pose * Pose{glm::dmat3(1.0), {-45.0, -25.0, 0.0}};
   bin.inner_size_mm = {80.0, 60.0, 100.0};
-  const Image<std::uint8_t> mask = foregroundMask(scene.image, {}, bin, options);
+  const Image<std::uint8_t> mask = host::foregroundMask(scene.image, {}, bin, options);
   int kept = 0;
   for (int v = 0; v < mask.height(); ++v) {
     for (int u = 0; u < mask.width(); ++u) {
@@ -269,7 +269,7 @@ TEST(ForegroundTest, PartsAboveTheRimOfTheBoxStay) {
   BinBox bin;
   bin.camera_from_bin = scene.pose;
   bin.inner_size_mm = {400.0, 400.0, 10.0};
-  const Image<std::uint8_t> mask = foregroundMask(scene.image, {}, bin, optionsFor(62.0));
+  const Image<std::uint8_t> mask = host::foregroundMask(scene.image, {}, bin, optionsFor(62.0));
   const Tally tally = tallyOf(scene.image, mask, scene.parts, scene.pose, 20.0);
   EXPECT_EQ(tally.parts_kept, tally.parts);
   EXPECT_GT(tally.parts, 1000);

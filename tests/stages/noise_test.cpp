@@ -1,5 +1,5 @@
 // Noise of known size, measured.
-#include "pipeline/depth_noise.h"
+#include "stages/noise_host.h"
 
 #include <gtest/gtest.h>
 
@@ -34,7 +34,7 @@ double measured(const Formula& depth, double sigma_mm, double step_mm) {
       image.depth_mm.at(u, v) = static_cast<float>(mm);
     }
   }
-  return estimateDepthNoise(image, Image<std::uint8_t>(kWidth, kHeight, 1));
+  return host::depthNoise(image, Image<std::uint8_t>(kWidth, kHeight, 1));
 }
 
 double tilted(int u, int v) { return 500.0 + 0.6 * u - 0.9 * v; }
@@ -84,10 +84,10 @@ TEST(DepthNoiseTest, TooFewTriplesGiveNone) {
   for (float& mm : image.depth_mm) mm = static_cast<float>(500.0 + gaussian(random));
   Image<std::uint8_t> mask(kWidth, kHeight, 0);
   for (int u = 0; u < 105; ++u) mask.at(u, 10) = 1;
-  EXPECT_EQ(estimateDepthNoise(image, mask), 0.0);
+  EXPECT_EQ(host::depthNoise(image, mask), 0.0);
   mask.at(105, 10) = 1;
-  EXPECT_GT(estimateDepthNoise(image, mask), 0.3);
-  EXPECT_EQ(estimateDepthNoise(image, Image<std::uint8_t>(kWidth, kHeight, 0)), 0.0);
+  EXPECT_GT(host::depthNoise(image, mask), 0.3);
+  EXPECT_EQ(host::depthNoise(image, Image<std::uint8_t>(kWidth, kHeight, 0)), 0.0);
 }
 
 TEST(DepthNoiseTest, OnlyPixelsOfTheMaskCount) {
@@ -101,7 +101,7 @@ TEST(DepthNoiseTest, OnlyPixelsOfTheMaskCount) {
       image.depth_mm.at(u, v) = static_cast<float>(500.0 + (kept ? 0.5 : 20.0) * gaussian(random));
     }
   }
-  EXPECT_NEAR(estimateDepthNoise(image, mask), 0.5, 0.075);
+  EXPECT_NEAR(host::depthNoise(image, mask), 0.5, 0.075);
 }
 
 }  // namespace

@@ -5,11 +5,11 @@
 
 #include "core/camera.h"
 
-namespace rangepose {
+namespace rangepose::host {
 
 /// Standard deviation of the depth noise [mm] over the measured pixels of the mask: from second
 /// differences along rows, which do not see a plane of any slope; only the lower half of them,
 /// which leaves edges out. 0 for fewer than 100 triples.
-double estimateDepthNoise(const DepthImage& image, const Image<std::uint8_t>& mask);
+double depthNoise(const DepthImage& image, const Image<std::uint8_t>& mask);
 
-}  // namespace rangepose
+}  // namespace rangepose::host

@@ -1,6 +1,6 @@
 // A sensor that loses every tenth pixel leaves parts with more outline than surface: they would be
 // found, and not trusted.
-#include "pipeline/dropouts.h"
+#include "stages/dropouts_host.h"
 
 #include <gtest/gtest.h>
 
@@ -46,7 +46,7 @@ class DropoutsTest : public testing::Test {
 
 TEST_F(DropoutsTest, WhatWasLostHereAndThereIsFilledAsItsSurfaceGoesOn) {
   lose(0.1);
-  const DepthImage filled = fillDropouts(image_, 0.1);
+  const DepthImage filled = host::fillDropouts(image_, 0.1);
   int open = 0;
   int closed = 0;
   for (int v = 0; v < 90; ++v) {
@@ -71,7 +71,7 @@ TEST_F(DropoutsTest, LargerHolesStay) {
     for (int u = 10; u < 40; ++u) image_.depth_mm.at(u, v) = 0.0f;
   }
   lose(0.1);
-  const DepthImage filled = fillDropouts(image_, 0.1);
+  const DepthImage filled = host::fillDropouts(image_, 0.1);
   for (int v = 21; v < 49; ++v) {
     for (int u = 11; u < 39; ++u) EXPECT_EQ(filled.depth_mm.at(u, v), 0.0f) << "a shadow";
   }
@@ -79,13 +79,13 @@ TEST_F(DropoutsTest, LargerHolesStay) {
 
 TEST_F(DropoutsTest, FewHolesStay) {
   ASSERT_GT(lose(0.005), 20);
-  EXPECT_EQ(fillDropouts(image_, 0.1).depth_mm, image_.depth_mm)
+  EXPECT_EQ(host::fillDropouts(image_, 0.1).depth_mm, image_.depth_mm)
       << "a sensor that loses few pixels loses them for a reason";
 }
 
 TEST_F(DropoutsTest, AnImageWithoutMeasurementStaysEmpty) {
   image_.depth_mm = Image<float>(120, 90, 0.0f);
-  EXPECT_EQ(fillDropouts(image_, 0.0).depth_mm, image_.depth_mm);
+  EXPECT_EQ(host::fillDropouts(image_, 0.0).depth_mm, image_.depth_mm);
 }
 
 }  // namespace
