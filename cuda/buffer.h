@@ -49,12 +49,13 @@ class Buffer {
   void reserve(std::size_t count) {
     if (count > count_) *this = Buffer(count);
   }
-  /// The first `count` values. From pageable memory it returns once `from` may be changed again;
-  /// pinned memory must be left alone until the stream has come past it.
-  void upload(const T* from, std::size_t count, cudaStream_t stream) {
-    need(count);
+  /// `count` values behind the first `skipped`. From pageable memory it returns once `from` may be
+  /// changed again; pinned memory must be left alone until the stream has come past it.
+  void upload(const T* from, std::size_t count, cudaStream_t stream, std::size_t skipped = 0) {
+    need(skipped + count);
     if (count == 0) return;
-    RP_CUDA(cudaMemcpyAsync(data_, from, count * sizeof(T), cudaMemcpyHostToDevice, stream));
+    RP_CUDA(
+        cudaMemcpyAsync(data_ + skipped, from, count * sizeof(T), cudaMemcpyHostToDevice, stream));
   }
   void download(T* into, std::size_t count, cudaStream_t stream) const {
     need(count);

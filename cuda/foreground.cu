@@ -82,13 +82,9 @@ __global__ void fillKernel(const float* measured,
   bool seen = false;
   bool lost = false;
   if (u < width && v < height) {
-    float mm = measured[v * width + u];
-    seen = mm > 0.0f;
-    if (mm == 0.0f && u > 0 && v > 0 && u + 1 < width && v + 1 < height) {
-      mm = filledDropout(camera, MeasuredAt{measured, width}, u, v, state->noise.noise_mm);
-      lost = mm != 0.0f;
-    }
-    depth[v * width + u] = mm;
+    const MeasuredAt read{measured, width};
+    seen = read(u, v) > 0.0f;
+    depth[v * width + u] = filledPixel(camera, read, u, v, state->noise.noise_mm, lost);
   }
   const int all_seen = __syncthreads_count(seen ? 1 : 0);
   const int all_lost = __syncthreads_count(lost ? 1 : 0);
@@ -157,10 +153,7 @@ __global__ void maskKernel(const float* depth,
   if (u >= rules.camera.width || v >= rules.camera.height) return;
   const int at = v * rules.camera.width + u;
   const float mm = depth[at];
-  KeepRule rule = rules.keep;
-  rule.margin_mm = kMarginTolerances * state->tolerance_mm;
-  const bool kept =
-      mm > 0.0f && keeps(rule, state->plane, state->planes, rules.camera.unproject(u, v, mm));
+  const bool kept = isForeground(*state, rules, u, v, mm);
   foreground[at] = kept ? mm : 0.0f;
   keep[at] = kept ? 1 : 0;
 }

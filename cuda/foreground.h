@@ -1,5 +1,6 @@
-// Launches of the foreground stages: contracts in src/stages/foreground_host.h. Image stages equal
-// the host's bits; noise and planes are sums in another order (1e-12 of their size). Nothing waits.
+// Launches of the foreground stages: contracts in noise_host.h, dropouts_host.h and foreground_host.h
+// of src/stages. Noise and planes are sums in another order than the host's: equal to 1e-10 of what
+// they are, and but for a pixel as close as that to a limit the images are the same. Nothing waits.
 #pragma once
 
 #include <cuda_runtime_api.h>
@@ -20,7 +21,7 @@ struct ForegroundMemory {
   float* foreground = nullptr;        ///< of it what may be a part [mm]
   std::uint8_t* keep = nullptr;       ///< the mask
   std::uint32_t* bins = nullptr;      ///< kNoiseBins, all 0 before and after
-  double* parts = nullptr;            ///< kImageParts
+  double* parts = nullptr;            ///< kImageParts sums of second differences [mm]
   SampleArrays samples[2];            ///< see mostSamples()
   const std::uint64_t* draws = nullptr;  ///< kDrawsOfRound for each round
   ForegroundState* state = nullptr;

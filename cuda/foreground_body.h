@@ -86,6 +86,27 @@ RP_HD int trialOf(unsigned long long key) {
   return static_cast<int>(0xffffffffU - static_cast<unsigned>(key & 0xffffffffU));
 }
 
+/// Depth of a pixel [mm] with lost pixels filled; `lost` says whether it was one. `read(u, v)` gives a
+/// depth [mm].
+template <typename Read>
+RP_BODY float filledPixel(
+    const Camera& camera, const Read& read, int u, int v, double noise_mm, bool& lost) {
+  const float mm = read(u, v);
+  lost = false;
+  if (mm != 0.0f || u == 0 || v == 0 || u + 1 == camera.width || v + 1 == camera.height) return mm;
+  const float filled = filledDropout(camera, read, u, v, noise_mm);
+  lost = filled != 0.0f;
+  return filled;
+}
+
+/// Whether a pixel of that depth [mm] is foreground, by the planes found so far.
+RP_BODY bool isForeground(
+    const ForegroundState& state, const ForegroundRules& rules, int u, int v, float mm) {
+  KeepRule rule = rules.keep;
+  rule.margin_mm = kMarginTolerances * state.tolerance_mm;
+  return mm > 0.0f && keeps(rule, state.plane, state.planes, rules.camera.unproject(u, v, mm));
+}
+
 /// Calls `place(thread, first)` for each thread, `first` being how many things the threads before
 /// it have; `total` is how many all have.
 template <typename Block, typename Count, typename Place>

@@ -8,10 +8,6 @@
 namespace rangepose::cuda {
 namespace {
 
-/// Rounds that are launched before the host asks whether there may be more planes: a floor, four
-/// walls, and faces of sheets that hide them.
-constexpr int kRoundsAtOnce = 8;
-
 ForegroundRules rulesOf(const Camera& camera, const ForegroundTask& task) {
   ForegroundRules rules;
   rules.camera = camera;
@@ -74,10 +70,10 @@ std::unique_ptr<ResidentForeground> ForegroundFinder::find(const DepthImage& mea
   Foreground& on_host = found->on_host;
   on_host.mask = Image<std::uint8_t>(camera.width, camera.height);
   ForegroundState state;
-  for (int round = 0; state.done == 0; round += kRoundsAtOnce) {
-    drawFor(round + kRoundsAtOnce, stream);
+  for (int round = 0; state.done == 0; round += rounds_at_once_) {
+    drawFor(round + rounds_at_once_, stream);
     memory.draws = draws_.data();
-    findPlanes(memory, rules, round, kRoundsAtOnce, stream);
+    findPlanes(memory, rules, round, rounds_at_once_, stream);
     maskForeground(memory, rules, stream);
     buffers->keep.download(on_host.mask.data(), pixels, stream);
     state_.download(&state, 1, stream);

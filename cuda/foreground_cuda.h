@@ -12,11 +12,13 @@ namespace rangepose::cuda {
 
 class ForegroundFinder {
  public:
-  /// `workspace` must outlive it.
-  explicit ForegroundFinder(Workspace& workspace) : workspace_(workspace) {}
+  /// `workspace` must outlive it. So many rounds of planes are launched before the host asks whether
+  /// there may be more: a floor, four walls, and faces of sheets that hide them.
+  explicit ForegroundFinder(Workspace& workspace, int rounds_at_once = 8)
+      : workspace_(workspace), rounds_at_once_(rounds_at_once) {}
 
-  /// Contract of StageSet::foreground. One trip to the host: mask, planes and noise; a second one
-  /// where lost pixels were filled, and for each further eight rounds of planes.
+  /// Contract of StageSet::foreground. The host waits once, for mask, planes and noise; once more
+  /// where lost pixels were filled, and for each further batch of rounds.
   std::unique_ptr<ResidentForeground> find(const DepthImage& measured, const ForegroundTask& task);
   /// Contract of StageSet::extent.
   LateralExtent extent(const CudaDepth& depth);
@@ -27,6 +29,7 @@ class ForegroundFinder {
   void drawFor(int rounds, cudaStream_t stream);
 
   Workspace& workspace_;
+  int rounds_at_once_;
   Buffer<float> measured_;
   Buffer<std::uint32_t> bins_;
   Buffer<double> parts_;

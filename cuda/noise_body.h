@@ -41,7 +41,7 @@ RP_BODY void visitDifferences(int thread,
     for (int u = kNoiseApart + thread; u + kNoiseApart < width; u += threads) {
       const float difference =
           secondDifference(read(u - kNoiseApart, v), read(u, v), read(u + kNoiseApart, v));
-      if (difference < 0.0f) continue;
+      if (!(difference >= 0.0f)) continue;
       std::uint32_t bits;
       memcpy(&bits, &difference, sizeof bits);
       visit(difference, bits);

@@ -9,14 +9,17 @@ namespace rangepose::cuda {
 
 template <typename Task>
 std::vector<int> Refiner::uploadPoints(const std::vector<Task>& tasks, cudaStream_t stream) {
-  std::vector<int> first;
-  staging_.clear();
-  for (const Task& task : tasks) {
-    first.push_back(static_cast<int>(staging_.size()));
-    staging_.insert(staging_.end(), task.points->begin(), task.points->end());
+  const std::vector<int> first = places_.place(tasks);
+  const std::vector<SurfacePoint>& kept = places_.kept();
+  const std::vector<SurfacePoint>& others = places_.others();
+  const std::size_t all = kept.size() + others.size();
+  if (all >= points_.size()) {
+    points_.reserve(2 * all + 1);
+    kept_ = 0;
   }
-  points_.reserve(std::max<std::size_t>(staging_.size(), 1));
-  points_.upload(staging_.data(), staging_.size(), stream);
+  points_.upload(kept.data() + kept_, kept.size() - kept_, stream, kept_);
+  kept_ = kept.size();
+  points_.upload(others.data(), others.size(), stream, kept_);
   return first;
 }
 
@@ -105,19 +108,19 @@ std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
     first += mostPoints(task.window);
     most_points = std::max(most_points, task.max_points);
   }
-  points_.reserve(static_cast<std::size_t>(std::max(first, 1)));
+  picked_.reserve(static_cast<std::size_t>(std::max(first, 1)));
   picks_.reserve(picks.size());
   picks_.upload(picks.data(), picks.size(), stream);
   icp_tasks_.reserve(own.size());
   icp_tasks_.upload(own.data(), own.size(), stream);
   icp_results_.reserve(own.size());
   const int count = static_cast<int>(own.size());
-  pickPoints(picks_.data(), depth.camera(), count, icp_tasks_.data(), points_.data(), stream);
+  pickPoints(picks_.data(), depth.camera(), count, icp_tasks_.data(), picked_.data(), stream);
   cuda::align({depth.camera(), depth.foreground()},
               icp_tasks_.data(),
               count,
               most_points,
-              points_.data(),
+              picked_.data(),
               icp_results_.data(),
               stream);
   return icp_results_.download(own.size(), stream);

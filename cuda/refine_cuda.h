@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "cuda/point_places.h"
 #include "cuda/refine.h"
 #include "cuda/scene_cuda.h"
 #include "cuda/surface_painter.h"
@@ -29,14 +30,16 @@ class Refiner {
   std::int64_t draws() const { return painter_.draws(); }
 
  private:
-  /// Puts the points of all tasks behind each other; first[i] is where those of task i begin.
+  /// Puts the points of all tasks into points_; first[i] is where those of task i begin.
   template <typename Task>
   std::vector<int> uploadPoints(const std::vector<Task>& tasks, cudaStream_t stream);
 
   Workspace& workspace_;
   SurfacePainter painter_;
-  std::vector<SurfacePoint> staging_;
+  PointPlaces places_;
   Buffer<SurfacePoint> points_;
+  std::size_t kept_ = 0;         ///< of the kept points those that are in points_
+  Buffer<SurfacePoint> picked_;  ///< of rendered surfaces
   Buffer<IcpTask> icp_tasks_;
   Buffer<IcpResult> icp_results_;
   Buffer<PointsTask> points_tasks_;

@@ -33,7 +33,8 @@ void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineS
     std::size_t next = first[w];
     for (const Candidate& candidate : windows[w]) {
       const auto view = static_cast<std::size_t>(candidate.view);
-      tasks[next++] = {&points[view], candidate.pose, visibleArea(object, candidate.view), options};
+      tasks[next++] = {
+          &points[view], candidate.pose, visibleArea(object, candidate.view), options, true};
     }
   });
   const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);

@@ -77,11 +77,6 @@ void tallyChannels(const SceneChannels& a, const SceneChannels& b, Tally& tally)
   tally.addImages(a.distance_px, b.distance_px);
 }
 
-/// Counts of two lists that should be equally long.
-std::int64_t surplus(std::size_t a, std::size_t b) {
-  return std::abs(static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b));
-}
-
 class Chained {
  public:
   Chained(const ReferenceDatabase& database,

@@ -36,6 +36,10 @@ class Isolated {
     foreground_.addImages(
         a.mask, b.mask, [](std::uint8_t x, std::uint8_t y) { return x == y ? 0.0 : 1.0; });
     foreground_.addImages(a.depth.depth_mm, b.depth.depth_mm);
+    background_.add(std::abs(a.noise_mm - b.noise_mm));
+    for (std::size_t i = 0; i < std::min(a.background.size(), b.background.size()); ++i)
+      background_.add(std::abs(a.background[i].offset_mm - b.background[i].offset_mm));
+    background_.addMissing(surplus(a.background.size(), b.background.size()));
   }
 
   void compareObject(const ReferenceObject& object, const ObjectTrace& trace) {
@@ -68,7 +72,7 @@ class Isolated {
   std::vector<StageComparison> results() const {
     std::vector<StageComparison> all;
     for (const Tally* tally :
-         {&foreground_, &resample_, &median_, &edges_, &edt_, &distance_, &patches_, &prepare_}) {
+         {&foreground_, &background_, &resample_, &median_, &edges_, &edt_, &distance_, &patches_, &prepare_}) {
       all.push_back(tally->result());
     }
     for (const StageComparison& result : search_.results()) all.push_back(result);
@@ -141,6 +145,7 @@ class Isolated {
   StageSet& subject_;
   SearchComparison search_;
   Tally foreground_{"foreground", subject_.name()};
+  Tally background_{"background", subject_.name()};
   Tally resample_{"resample", subject_.name()};
   Tally median_{"median", subject_.name()};
   Tally edges_{"edges", subject_.name()};

@@ -14,9 +14,10 @@ struct NamedTolerance {
 // with 256 and 1,024 views.
 constexpr NamedTolerance kTolerances[] = {
     // Isolated.
-    // Mask and depth without lost pixels. Planes and noise are sums in another order, 1e-12 of what
+    // Mask and depth without lost pixels. Planes and noise are sums in another order, 1e-10 of what
     // they are: a pixel whose height is the tolerance to that may fall to either side.
     {"foreground", {"", 0.0, 1.0e-5}},
+    {"background", {"mm", 1.0e-6, 0.0}},  // noise, and how far off the planes are
     {"resample", {"px", 0.0, 0.0}},
     {"median", {"px", 0.0, 0.0}},
     {"edges", {"", 0.0, 0.0}},
@@ -113,6 +114,10 @@ StageComparison Tally::result() const {
   result.mean_difference = sum_ / total;
   result.within = static_cast<double>(result.differing) <= tolerance_.share * total;
   return result;
+}
+
+std::int64_t surplus(std::size_t a, std::size_t b) {
+  return std::abs(static_cast<std::int64_t>(a) - static_cast<std::int64_t>(b));
 }
 
 double relativeDifference(double a, double b, double floor) {

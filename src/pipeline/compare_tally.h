@@ -73,6 +73,9 @@ class Tally {
   bool warm_ = false;
 };
 
+/// How many more one of two lists holds that should be equally long.
+std::int64_t surplus(std::size_t a, std::size_t b);
+
 /// |a - b| as a share of |a|, or of `floor` where |a| is smaller.
 double relativeDifference(double a, double b, double floor);
 

@@ -75,13 +75,14 @@ class Estimator {
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : whole_;
     const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_};
+    const LateralExtent extent = extentOf(resident);
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
     for (std::size_t i = 0; i < database_.objects.size(); ++i) {
       const ReferenceObject& object = database_.objects[i];
       ObjectTrace* object_trace = trace != nullptr ? &trace->objects.emplace_back() : nullptr;
       const std::vector<glm::dvec3> starts =
-          findStarts(object, foreground, resident, tried_[i], effort.starts, object_trace);
+          findStarts(object, foreground, resident, extent, tried_[i], effort.starts, object_trace);
       tried_[i].insert(tried_[i].end(), starts.begin(), starts.end());
       pass.starts += static_cast<int>(starts.size());
       const Windows windows = cutWindows(object, resident, starts, object_trace);
@@ -144,15 +145,21 @@ class Estimator {
   }
 
  private:
+  LateralExtent extentOf(const ResidentDepth& resident) {
+    const ScopedTimer timer(result_.times, "scene and starts");
+    return stages_.extent(resident);
+  }
+
   /// The start points, in the camera frame [mm]; none near those in `tried`.
   std::vector<glm::dvec3> findStarts(const ReferenceObject& object,
                                      const Image<std::uint8_t>& foreground,
                                      const ResidentDepth& resident,
+                                     const LateralExtent& extent,
                                      const std::vector<glm::dvec3>& tried,
                                      int wanted,
                                      ObjectTrace* trace) {
     const ScopedTimer timer(result_.times, "scene and starts");
-    const OrthoCamera camera = sceneCamera(stages_.extent(resident), object.pixel_mm, kMaxScenePx);
+    const OrthoCamera camera = sceneCamera(extent, object.pixel_mm, kMaxScenePx);
     if (camera.width == 0) return {};
     // Twice the passes of a reference, as the paper's 15 at 128 px for 7 at 64 px.
     ChannelOptions channel_options = channelOptionsOf(object);

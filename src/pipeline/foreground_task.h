@@ -8,7 +8,7 @@
 
 namespace rangepose {
 
-/// For parts of the database.
+/// For parts of the database; with a bin, of what is inside or above it.
 ForegroundTask foregroundTaskFor(const ReferenceDatabase& database,
                                  const std::optional<BinBox>& bin);
 

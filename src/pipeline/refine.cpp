@@ -85,7 +85,7 @@ void judgeWithViews(std::vector<Candidate>& candidates,
     CheckOptions options = checkOptionsFor(object, scene.noise_mm);
     options.tolerance_mm *= judged;
     tasks.push_back(
-        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options});
+        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options, true});
   }
   setVerdicts(candidates,
               scene.stages.judge(scene.resident, tasks),
@@ -114,7 +114,7 @@ void alignWithViews(std::vector<Candidate>& candidates,
     options.rim_weight = kRimWeight;
     options.rim_steps = round.rim_steps;
     alignments.push_back(
-        {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options});
+        {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options, true});
   }
   const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
   for (std::size_t i = 0; i < candidates.size(); ++i)

@@ -205,12 +205,14 @@ Image<std::uint8_t> foregroundMask(const DepthImage& image,
 }
 
 LateralExtent extentOf(const DepthImage& image, const Image<std::uint8_t>& mask) {
-  std::vector<LateralExtent> rows(static_cast<std::size_t>(mask.height()));
+  const Image<float>& depth_mm = image.depth_mm;
+  std::vector<LateralExtent> rows(static_cast<std::size_t>(depth_mm.height()));
   parallelForEach(rows.size(), kRowsPerPiece, [&](std::size_t row) {
     const int v = static_cast<int>(row);
-    for (int u = 0; u < mask.width(); ++u) {
-      if (mask.at(u, v) != 0)
-        rows[row].add(glm::dvec2(image.camera.unproject(u, v, image.depth_mm.at(u, v))));
+    for (int u = 0; u < depth_mm.width(); ++u) {
+      const double depth = depth_mm.at(u, v);
+      if (depth == 0.0 || (!mask.empty() && mask.at(u, v) == 0)) continue;
+      rows[row].add(glm::dvec2(image.camera.unproject(u, v, depth)));
     }
   });
   LateralExtent extent;

@@ -20,7 +20,7 @@ Image<std::uint8_t> foregroundMask(const DepthImage& image,
                                    const std::optional<BinBox>& bin,
                                    const ForegroundOptions& options);
 
-/// Of all pixels of the mask.
+/// Of all measured pixels of the mask; an empty mask leaves nothing out.
 LateralExtent extentOf(const DepthImage& image, const Image<std::uint8_t>& mask);
 
 }  // namespace rangepose::host

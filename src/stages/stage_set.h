@@ -46,8 +46,13 @@ class ResidentDepth {
   virtual ~ResidentDepth() = default;
 };
 
-/// A foreground, with its depth image and mask also where the path keeps them.
+/// A foreground, with its depth image and mask also where the path keeps them: `resident` may refer
+/// to `on_host`, so it stays where it is.
 struct ResidentForeground {
+  ResidentForeground() = default;
+  ResidentForeground(const ResidentForeground&) = delete;
+  ResidentForeground& operator=(const ResidentForeground&) = delete;
+
   Foreground on_host;
   std::unique_ptr<ResidentDepth> resident;
 };
@@ -59,6 +64,8 @@ struct AlignTask {
   glm::dvec3 center_mm{0.0};
   double radius_mm = 0.0;
   IcpOptions options;
+  /// The points are of pointsOfViews() and stay as they are: a path may keep a copy on its device.
+  bool kept = false;
 };
 
 /// Points of a posed object to be judged by the whole depth image; contract in check_host.h.
@@ -67,6 +74,7 @@ struct JudgeTask {
   Pose camera_from_object;
   double visible_mm2 = 0.0;  ///< area that the points stand for [mm^2]
   CheckOptions options;
+  bool kept = false;  ///< see AlignTask
 };
 
 /// A posed object whose rendered surface is aligned with the depth image without background, or
@@ -147,7 +155,7 @@ class StageSet {
   /// Contract in foreground_host.h.
   virtual std::unique_ptr<ResidentForeground> foreground(const DepthImage& measured,
                                                          const ForegroundTask& task);
-  /// Of all that is kept.
+  /// Of all measured pixels that are kept.
   virtual LateralExtent extent(const ResidentDepth& depth);
   /// As `prepare` of the same image and mask.
   virtual std::unique_ptr<ResidentScene> prepare(const ResidentDepth& depth,

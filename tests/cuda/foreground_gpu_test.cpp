@@ -17,23 +17,12 @@ class ForegroundGpuTest : public test::CudaFixture {
     finder_.emplace(*workspace_);
   }
   cuda::ForegroundFinder& finder() { return *finder_; }
+  cuda::Workspace& workspace() { return *workspace_; }
 
  private:
   std::optional<cuda::Workspace> workspace_;
   std::optional<cuda::ForegroundFinder> finder_;
 };
-
-void expectLike(const Foreground& actual, const Foreground& expected) {
-  EXPECT_NEAR(actual.noise_mm, expected.noise_mm, test::kOtherOrder * expected.noise_mm);
-  EXPECT_EQ(actual.depth.depth_mm, expected.depth.depth_mm);
-  ASSERT_EQ(actual.background.size(), expected.background.size());
-  for (std::size_t i = 0; i < expected.background.size(); ++i) {
-    const BackgroundPlane& plane = expected.background[i];
-    EXPECT_LT(glm::distance(actual.background[i].normal, plane.normal), test::kOtherOrder) << i;
-    EXPECT_NEAR(actual.background[i].offset_mm, plane.offset_mm, test::kOtherOrder * 1000.0) << i;
-  }
-  EXPECT_EQ(actual.mask, expected.mask);
-}
 
 /// One finder for all: an image must not see what another one left behind.
 TEST_F(ForegroundGpuTest, IsTheHosts) {
@@ -41,13 +30,23 @@ TEST_F(ForegroundGpuTest, IsTheHosts) {
     SCOPED_TRACE(scene.name);
     const Foreground expected = host::foreground(scene.image, scene.task);
     const std::unique_ptr<ResidentForeground> found = finder().find(scene.image, scene.task);
-    expectLike(found->on_host, expected);
+    test::expectLike(found->on_host, expected);
     const LateralExtent extent =
         finder().extent(dynamic_cast<const cuda::CudaDepth&>(*found->resident));
     const LateralExtent wanted = host::extentOf(expected.depth, expected.mask);
     EXPECT_EQ(extent.empty(), wanted.empty());
     EXPECT_EQ(extent.low, wanted.low);
     EXPECT_EQ(extent.high, wanted.high);
+  }
+}
+
+/// Draws are made and memory grows between the rounds.
+TEST_F(ForegroundGpuTest, RoundsOneByOneAreThoseInOne) {
+  cuda::ForegroundFinder one_by_one(workspace(), 1);
+  for (const test::ForegroundScene& scene : test::foregroundScenes()) {
+    SCOPED_TRACE(scene.name);
+    test::expectLike(one_by_one.find(scene.image, scene.task)->on_host,
+                     host::foreground(scene.image, scene.task));
   }
 }
 

@@ -21,9 +21,7 @@ TEST_P(ForegroundParity, MaskPlanesAndExtentAreTheHosts) {
     SCOPED_TRACE(scene.name);
     const auto expected = host().foreground(scene.image, scene.task);
     const auto actual = subject().foreground(scene.image, scene.task);
-    EXPECT_EQ(actual->on_host.mask, expected->on_host.mask);
-    EXPECT_EQ(actual->on_host.depth.depth_mm, expected->on_host.depth.depth_mm);
-    EXPECT_EQ(actual->on_host.background.size(), expected->on_host.background.size());
+    test::expectLike(actual->on_host, expected->on_host);
     const LateralExtent wanted = host().extent(*expected->resident);
     const LateralExtent extent = subject().extent(*actual->resident);
     EXPECT_EQ(extent.low, wanted.low);
@@ -32,6 +30,19 @@ TEST_P(ForegroundParity, MaskPlanesAndExtentAreTheHosts) {
     const auto uploaded =
         subject().uploadDepth(expected->on_host.depth, expected->on_host.mask);
     EXPECT_EQ(subject().extent(*uploaded).low, wanted.low);
+  }
+}
+
+/// No mask, and one that also keeps what was not measured.
+TEST_P(ForegroundParity, ExtentIsThatOfMeasuredPixels) {
+  const DepthImage image = test::foregroundScenes().front().image;
+  const Image<std::uint8_t> all(image.camera.width, image.camera.height, 1);
+  for (const Image<std::uint8_t>& keep : {Image<std::uint8_t>(), all}) {
+    const LateralExtent wanted = host().extent(*host().uploadDepth(image, keep));
+    const LateralExtent extent = subject().extent(*subject().uploadDepth(image, keep));
+    EXPECT_FALSE(wanted.empty());
+    EXPECT_EQ(extent.low, wanted.low);
+    EXPECT_EQ(extent.high, wanted.high);
   }
 }
 

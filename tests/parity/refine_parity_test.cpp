@@ -90,6 +90,35 @@ TEST_P(RefineParity, PointsAreJudgedAlike) {
   }
 }
 
+/// Kept points stay on a device from call to call, among others that do not.
+TEST_P(RefineParity, KeptPointsAreThoseOfTheirTask) {
+  using Choice = std::vector<std::pair<std::size_t, bool>>;  // points, whether they are kept
+  for (const Choice& choice : {Choice{{2, true}, {0, true}},
+                               Choice{{1, false}, {0, true}, {3, true}},
+                               Choice{{2, true}, {4, false}, {5, true}, {1, true}}}) {
+    std::vector<JudgeTask> judged;
+    std::vector<AlignTask> aligned;
+    for (const auto& [at, kept] : choice) {
+      const auto* points = &points_[at];
+      judged.push_back({points, scene_.truth, 900.0, {}, kept});
+      aligned.push_back(
+          {points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, {}, kept});
+    }
+    const std::vector<CheckResult> expected = host().judge(*at_host_, judged);
+    const std::vector<CheckResult> actual = subject().judge(*at_subject_, judged);
+    const std::vector<IcpResult> moved = host().align(*at_host_, aligned);
+    const std::vector<IcpResult> also_moved = subject().align(*at_subject_, aligned);
+    for (std::size_t i = 0; i < choice.size(); ++i) {
+      EXPECT_EQ(actual[i].pixels, expected[i].pixels);
+      EXPECT_NEAR(actual[i].score, expected[i].score, test::kPointVerdict);
+      EXPECT_LT(test::farthestCorner(scene_.object,
+                                     also_moved[i].camera_from_object,
+                                     moved[i].camera_from_object),
+                test::kAlignedMm);
+    }
+  }
+}
+
 TEST_P(RefineParity, RenderedSurfacesAreAlignedAlike) {
   const std::vector<IcpResult> expected = host().alignSurfaces(*at_host_, renderTasks());
   const std::vector<IcpResult> actual = subject().alignSurfaces(*at_subject_, renderTasks());

@@ -109,6 +109,7 @@ class Bent : public StageSet {
     std::unique_ptr<ResidentForeground> found = StageSet::foreground(measured, task);
     // One row of the image.
     if (bent_ == "foreground") std::fill_n(found->on_host.mask.data(), measured.camera.width, 1);
+    if (bent_ == "background") found->on_host.noise_mm += 1e-4;
     return found;
   }
   std::vector<IcpResult> align(const ResidentDepth& depth,
@@ -226,6 +227,7 @@ TEST_P(BentStage, IsNamed) {
 INSTANTIATE_TEST_SUITE_P(AllStages,
                          BentStage,
                          testing::Values(std::pair("foreground", "isolated foreground"),
+                                         std::pair("background", "isolated background"),
                                          std::pair("resample", "isolated resample"),
                                          std::pair("median", "isolated median"),
                                          std::pair("edges", "isolated edges"),
