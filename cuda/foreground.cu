@@ -1,6 +1,5 @@
-#include "cuda/foreground.h"
-
 #include "cuda/check.h"
+#include "cuda/foreground.h"
 #include "cuda/pixels.h"
 #include "cuda/storage.h"
 
@@ -28,9 +27,12 @@ struct DepthAround {
   }
 };
 
-__global__ __launch_bounds__(kPartThreads) void countDigitsKernel(
-    const float* measured, int width, int height, int digit, const ForegroundState* state,
-    std::uint32_t* counts) {
+__global__ __launch_bounds__(kPartThreads) void countDigitsKernel(const float* measured,
+                                                                  int width,
+                                                                  int height,
+                                                                  int digit,
+                                                                  const ForegroundState* state,
+                                                                  std::uint32_t* counts) {
   __shared__ std::uint32_t bins[kNoiseBins];
   DeviceBlock<kPartThreads> block;
   countDigits(
@@ -93,18 +95,17 @@ __global__ void fillKernel(const float* measured,
   if (all_lost > 0) atomicAdd(&state->lost, all_lost);
 }
 
-__global__ void unlessManyKernel(const float* measured,
-                                 int width,
-                                 int height,
-                                 float* depth,
-                                 const ForegroundState* state) {
+__global__ void unlessManyKernel(
+    const float* measured, int width, int height, float* depth, const ForegroundState* state) {
   const auto [u, v] = ownPixel();
   if (u >= width || v >= height || areMany(state->lost, state->measured)) return;
   depth[v * width + u] = measured[v * width + u];
 }
 
 __global__ __launch_bounds__(kRoundThreads, 1) void takeSamplesKernel(
-    const float* depth, const __grid_constant__ ForegroundRules rules, SampleArrays into,
+    const float* depth,
+    const __grid_constant__ ForegroundRules rules,
+    SampleArrays into,
     ForegroundState* state) {
   __shared__ int first[kRoundThreads];
   DeviceBlock<kRoundThreads> block;
@@ -158,8 +159,9 @@ __global__ void maskKernel(const float* depth,
   keep[at] = kept ? 1 : 0;
 }
 
-__global__ __launch_bounds__(kPartThreads) void extentKernel(
-    const float* depth_mm, const __grid_constant__ Camera camera, unsigned long long* keys) {
+__global__ __launch_bounds__(kPartThreads) void extentKernel(const float* depth_mm,
+                                                             const __grid_constant__ Camera camera,
+                                                             unsigned long long* keys) {
   DeviceBlock<kPartThreads> block;
   extentOfPart(block,
                camera,

@@ -86,8 +86,8 @@ RP_HD int trialOf(unsigned long long key) {
   return static_cast<int>(0xffffffffU - static_cast<unsigned>(key & 0xffffffffU));
 }
 
-/// Depth of a pixel [mm] with lost pixels filled; `lost` says whether it was one. `read(u, v)` gives a
-/// depth [mm].
+/// Depth of a pixel [mm] with lost pixels filled; `lost` says whether it was one. `read(u, v)`
+/// gives a depth [mm].
 template <typename Read>
 RP_BODY float filledPixel(
     const Camera& camera, const Read& read, int u, int v, double noise_mm, bool& lost) {
@@ -110,8 +110,11 @@ RP_BODY bool isForeground(
 /// Calls `place(thread, first)` for each thread, `first` being how many things the threads before
 /// it have; `total` is how many all have.
 template <typename Block, typename Count, typename Place>
-RP_BODY void placeInOrder(
-    Block& block, int (&first)[Block::kThreads], int& total, const Count& count, const Place& place) {
+RP_BODY void placeInOrder(Block& block,
+                          int (&first)[Block::kThreads],
+                          int& total,
+                          const Count& count,
+                          const Place& place) {
   block.forEachThread([&](int thread) { first[thread] = count(thread); });
   block.barrier();
   block.leader([&] {
@@ -127,7 +130,8 @@ RP_BODY void placeInOrder(
   block.forEachThread([&](int thread) { place(thread, first[thread]); });
 }
 
-/// The first of `count` things that are a thread's; those of thread i end where those of i + 1 begin.
+/// The first of `count` things that are a thread's; those of thread i end where those of i + 1
+/// begin.
 RP_HD int chunkBegin(int thread, int threads, int count) {
   return static_cast<int>(static_cast<long long>(thread) * count / threads);
 }
@@ -218,9 +222,8 @@ RP_BODY void tryPlane(Block& block,
   };
   if (state.done != 0) return;
   const SampleArrays& samples = arrays[state.side];
-  block.leader([&] {
-    shared.exists = planeOfTrial(state, rules, samples, draws, trial, shared.plane);
-  });
+  block.leader(
+      [&] { shared.exists = planeOfTrial(state, rules, samples, draws, trial, shared.plane); });
   block.barrier();
   if (!shared.exists) return;
   const int stride = state.samples > kTrialSamples ? state.samples / kTrialSamples : 1;
@@ -302,8 +305,7 @@ RP_BODY void scatterOnPlane(Block& block,
     seconds[thread] = sum;
   });
   block.template sum<double>(seconds, [&](const Second& all) {
-    const glm::dmat3 sums(
-        all.xx, all.xy, all.xz, all.xy, all.yy, all.yz, all.xz, all.yz, all.zz);
+    const glm::dmat3 sums(all.xx, all.xy, all.xz, all.xy, all.yy, all.yz, all.xz, all.yz, all.zz);
     shared.covariance = shared.count > 0.0 ? sums / shared.count : glm::dmat3(0.0);
   });
 }

@@ -12,8 +12,8 @@ namespace rangepose::cuda {
 
 class ForegroundFinder {
  public:
-  /// `workspace` must outlive it. So many rounds of planes are launched before the host asks whether
-  /// there may be more: a floor, four walls, and faces of sheets that hide them.
+  /// `workspace` must outlive it. So many rounds of planes are launched before the host asks
+  /// whether there may be more: a floor, four walls, and faces of sheets that hide them.
   explicit ForegroundFinder(Workspace& workspace, int rounds_at_once = 8)
       : workspace_(workspace), rounds_at_once_(rounds_at_once) {}
 

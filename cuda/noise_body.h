@@ -71,14 +71,7 @@ RP_BODY void countDigits(Block& block,
   block.barrier();
   block.forEachThread([&](int thread) {
     visitDifferences(
-        thread,
-        Block::kThreads,
-        part,
-        parts,
-        width,
-        height,
-        read,
-        [&](float, std::uint32_t bits) {
+        thread, Block::kThreads, part, parts, width, height, read, [&](float, std::uint32_t bits) {
           // Of the first digit nothing leads.
           const int leading = shift + (digit == 0 ? 11 : 10);
           if (digit > 0 && bits >> leading != state.known >> leading) return;

@@ -261,8 +261,8 @@ Comparison comparePaths(const DepthImage& depth,
   const DeviceWork before = subject.work();
   {
     const Run recorded = run(reference);
-    comparison.isolated =
-        compareIsolated(depth, bin, database, recorded.estimate, recorded.trace, reference, subject);
+    comparison.isolated = compareIsolated(
+        depth, bin, database, recorded.estimate, recorded.trace, reference, subject);
   }
   // By now both paths have made what they make once, so these times compare.
   const Run expected = run(reference);

@@ -28,9 +28,8 @@ class Isolated {
         search_(reference, subject) {}
 
   void foreground(const ForegroundTask& task) {
-    const auto [expected, actual] = foreground_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.foreground(depth_, task);
-    });
+    const auto [expected, actual] = foreground_.run(
+        reference_, subject_, [&](StageSet& stages) { return stages.foreground(depth_, task); });
     const Foreground& a = expected->on_host;
     const Foreground& b = actual->on_host;
     foreground_.addImages(
@@ -71,8 +70,15 @@ class Isolated {
 
   std::vector<StageComparison> results() const {
     std::vector<StageComparison> all;
-    for (const Tally* tally :
-         {&foreground_, &background_, &resample_, &median_, &edges_, &edt_, &distance_, &patches_, &prepare_}) {
+    for (const Tally* tally : {&foreground_,
+                               &background_,
+                               &resample_,
+                               &median_,
+                               &edges_,
+                               &edt_,
+                               &distance_,
+                               &patches_,
+                               &prepare_}) {
       all.push_back(tally->result());
     }
     for (const StageComparison& result : search_.results()) all.push_back(result);

@@ -14,8 +14,7 @@ RP_HD bool areMany(int lost, int measured) {
 /// Depth [mm] of pixel (u, v), which was not measured and is none of the image's border, by its
 /// neighbours; 0 where it stays a hole. `read(u, v)` gives a depth [mm]. See host::fillDropouts.
 template <typename Read>
-RP_HD float filledDropout(
-    const Camera& camera, const Read& read, int u, int v, double noise_mm) {
+RP_HD float filledDropout(const Camera& camera, const Read& read, int u, int v, double noise_mm) {
   constexpr int kMeasured = 6;       // at least: then two opposite ones are among them
   constexpr double kSteepest = 1.0;  // slope of a surface that is no edge and not seen at a slant
   constexpr double kSigmas = 5.0;    // between the nearest and the farthest of the neighbours

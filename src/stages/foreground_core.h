@@ -9,7 +9,8 @@ namespace rangepose {
 
 /// Planes are laid through so many triples of samples, the first that has most samples is taken.
 inline constexpr int kPlaneTrials = 4000;
-/// A plane is tried on at least so many of the samples, evenly taken from all, if there are as many.
+/// A plane is tried on at least so many of the samples, evenly taken from all, if there are as
+/// many.
 inline constexpr int kTrialSamples = 1500;
 /// A plane that was found is fitted to its samples so many times.
 inline constexpr int kPlaneFits = 3;
@@ -40,8 +41,7 @@ RP_HD int sampleStride(double measured) {
 /// Slope from the points `reach` pixels to either side, of 0.05 part diameters. `read(u, v)` gives
 /// a depth [mm], also 0 outside of the image.
 template <typename Read>
-RP_HD SurfaceSample
-sampleAt(const Camera& camera, const Read& read, int u, int v, double part_mm) {
+RP_HD SurfaceSample sampleAt(const Camera& camera, const Read& read, int u, int v, double part_mm) {
   constexpr int kLeast = 2;
   constexpr int kMost = 20;
   const double depth = read(u, v);

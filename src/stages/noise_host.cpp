@@ -11,11 +11,11 @@ double depthNoise(const DepthImage& image, const Image<std::uint8_t>& mask) {
   std::vector<float> differences;
   for (int v = 0; v < mask.height(); v += kNoiseRowStep) {
     for (int u = kNoiseApart; u + kNoiseApart < mask.width(); ++u) {
-      if (mask.at(u - kNoiseApart, v) == 0 || mask.at(u, v) == 0 || mask.at(u + kNoiseApart, v) == 0)
+      if (mask.at(u - kNoiseApart, v) == 0 || mask.at(u, v) == 0 ||
+          mask.at(u + kNoiseApart, v) == 0)
         continue;
       const float* row = image.depth_mm.row(v);
-      const float difference =
-          secondDifference(row[u - kNoiseApart], row[u], row[u + kNoiseApart]);
+      const float difference = secondDifference(row[u - kNoiseApart], row[u], row[u + kNoiseApart]);
       if (difference >= 0.0f) differences.push_back(difference);
     }
   }

@@ -85,8 +85,7 @@ class Launches {
     for (int v = 0; v < measured.height(); ++v) {
       for (int u = 0; u < measured.width(); ++u) {
         bool lost = false;
-        depth.at(u, v) =
-            cuda::filledPixel(rules.camera, read, u, v, state.noise.noise_mm, lost);
+        depth.at(u, v) = cuda::filledPixel(rules.camera, read, u, v, state.noise.noise_mm, lost);
         state.measured += measured.at(u, v) > 0.0f ? 1 : 0;
         state.lost += lost ? 1 : 0;
       }
@@ -184,11 +183,10 @@ TEST_P(ForegroundBodyTest, ExtentIsTheHosts) {
   std::vector<unsigned long long> keys(4, ~0ULL);
   Block block;
   for (int part = 0; part < kParts; ++part) {
-    cuda::extentOfPart(
-        block, scene_.image.camera, kept.data(), part, kParts, [&](int k, auto key) {
-          auto& least = keys[static_cast<std::size_t>(k)];
-          least = std::min(least, key);
-        });
+    cuda::extentOfPart(block, scene_.image.camera, kept.data(), part, kParts, [&](int k, auto key) {
+      auto& least = keys[static_cast<std::size_t>(k)];
+      least = std::min(least, key);
+    });
   }
   const LateralExtent extent = host::extentOf(expected_.depth, expected_.mask);
   EXPECT_EQ(cuda::valueOfKey(keys[0]), extent.low.x);
@@ -197,10 +195,9 @@ TEST_P(ForegroundBodyTest, ExtentIsTheHosts) {
   EXPECT_EQ(-cuda::valueOfKey(keys[3]), extent.high.y);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Scenes,
-    ForegroundBodyTest,
-    testing::Range(0, static_cast<int>(test::foregroundScenes().size())));
+INSTANTIATE_TEST_SUITE_P(Scenes,
+                         ForegroundBodyTest,
+                         testing::Range(0, static_cast<int>(test::foregroundScenes().size())));
 
 /// The comparisons above are worth what their scenes have in them.
 TEST(ForegroundBodySceneTest, ScenesHaveWallsFacesNoiseAndLostPixels) {
@@ -302,8 +299,7 @@ TEST(ForegroundThreadedTest, NoiseSamplesAndPlanesAreThoseOfOneThread) {
     cuda::settlePlane(host, alone, one.state, one.rules, one.arrays, one.drawsOf(round));
     cuda::RoundShared<kThreads> shared{};
     test::runThreaded<kThreads>([&](auto& block) {
-      cuda::settlePlane(
-          block, shared, many.state, many.rules, many.arrays, many.drawsOf(round));
+      cuda::settlePlane(block, shared, many.state, many.rules, many.arrays, many.drawsOf(round));
     });
     EXPECT_EQ(many.state.samples, one.state.samples) << round;
     EXPECT_EQ(many.state.planes, one.state.planes) << round;

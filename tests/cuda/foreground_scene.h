@@ -52,8 +52,7 @@ inline ForegroundScene binScene(const std::string& name, const Camera& camera) {
   measure(scene.image,
           meshOf({boxAt(50.0, -20.0, {40.0, 40.0, 20.0}), boxAt(0.0, 30.0, {50.0, 30.0, 22.0})}),
           bin);
-  const Pose leaning{rotationFromVector({0.0, -0.65 * std::numbers::pi, 0.0}),
-                     {-20.0, -60.0, 2.0}};
+  const Pose leaning{rotationFromVector({0.0, -0.65 * std::numbers::pi, 0.0}), {-20.0, -60.0, 2.0}};
   measure(scene.image, meshOf({{{0, 0, 0}, {80, 60, 2}}}), bin * leaning);
   scene.task.options.part_mm = 100.0;
   scene.task.options.tolerance_mm = 2.0;
@@ -80,9 +79,9 @@ inline std::vector<ForegroundScene> foregroundScenes() {
   scenes.push_back(binScene("large", pinholeCamera(641, 479, 830.0)));
   addNoise(scenes.back().image, 0.3, 0.05, 0.0);
   scenes.push_back(binScene("a bin box", pinhole));
-  scenes.back().task.bin = BinBox{{rotationFromVector({std::numbers::pi + 0.2, 0.0, 0.0}),
-                                   {10.0, 0.0, 470.0}},
-                                  {150.0, 150.0, 60.0}};
+  scenes.back().task.bin =
+      BinBox{{rotationFromVector({std::numbers::pi + 0.2, 0.0, 0.0}), {10.0, 0.0, 470.0}},
+             {150.0, 150.0, 60.0}};
   scenes.push_back(binScene("no plane asked for", pinhole));
   scenes.back().task.options.max_planes = 0;
   scenes.push_back({"nothing", {pinhole, Image<float>(320, 240, 0.0f)}, scenes.front().task});

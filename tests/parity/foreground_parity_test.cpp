@@ -27,8 +27,7 @@ TEST_P(ForegroundParity, MaskPlanesAndExtentAreTheHosts) {
     EXPECT_EQ(extent.low, wanted.low);
     EXPECT_EQ(extent.high, wanted.high);
     // What a path found and what is uploaded to it are the same.
-    const auto uploaded =
-        subject().uploadDepth(expected->on_host.depth, expected->on_host.mask);
+    const auto uploaded = subject().uploadDepth(expected->on_host.depth, expected->on_host.mask);
     EXPECT_EQ(subject().extent(*uploaded).low, wanted.low);
   }
 }

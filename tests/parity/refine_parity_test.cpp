@@ -111,9 +111,8 @@ TEST_P(RefineParity, KeptPointsAreThoseOfTheirTask) {
     for (std::size_t i = 0; i < choice.size(); ++i) {
       EXPECT_EQ(actual[i].pixels, expected[i].pixels);
       EXPECT_NEAR(actual[i].score, expected[i].score, test::kPointVerdict);
-      EXPECT_LT(test::farthestCorner(scene_.object,
-                                     also_moved[i].camera_from_object,
-                                     moved[i].camera_from_object),
+      EXPECT_LT(test::farthestCorner(
+                    scene_.object, also_moved[i].camera_from_object, moved[i].camera_from_object),
                 test::kAlignedMm);
     }
   }

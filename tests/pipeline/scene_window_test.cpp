@@ -124,7 +124,8 @@ TEST_P(SensorTest, SceneCameraCoversTheMask) {
 
 TEST_P(SensorTest, SceneCameraOfAnEmptyMaskIsEmpty) {
   const DepthImage image{sensor(), Image<float>(640, 480, 500.0f)};
-  EXPECT_EQ(sceneCamera(host::extentOf(image, Image<std::uint8_t>(640, 480, 0)), 1.0, 1024).width, 0);
+  EXPECT_EQ(sceneCamera(host::extentOf(image, Image<std::uint8_t>(640, 480, 0)), 1.0, 1024).width,
+            0);
 }
 
 TEST_P(SensorTest, SceneCameraOfOnePixelShowsIt) {

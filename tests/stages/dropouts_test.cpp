@@ -1,12 +1,11 @@
 // A sensor that loses every tenth pixel leaves parts with more outline than surface: they would be
 // found, and not trusted.
-#include "stages/dropouts_host.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "stages/dropouts_host.h"
 #include "support/shapes.h"
 
 namespace rangepose {

@@ -1,6 +1,4 @@
 // What is kept of a depth image and what is background.
-#include "stages/foreground_host.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "sim/heap.h"
 #include "sim/scanner.h"
+#include "stages/foreground_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
 
@@ -234,7 +233,8 @@ TEST(ForegroundTest, SheetThatLeansInTheBinIsNoWall) {
 
 TEST(ForegroundTest, EmptyImageHasNoBackground) {
   EXPECT_TRUE(host::findBackground(nothing(), optionsFor(62.0)).empty());
-  const Image<std::uint8_t> mask = host::foregroundMask(nothing(), {}, std::nullopt, optionsFor(62.0));
+  const Image<std::uint8_t> mask =
+      host::foregroundMask(nothing(), {}, std::nullopt, optionsFor(62.0));
   EXPECT_TRUE(mask == Image<std::uint8_t>(320, 240, 0));
 }
 

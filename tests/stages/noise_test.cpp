@@ -1,12 +1,11 @@
 // Noise of known size, measured.
-#include "stages/noise_host.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <functional>
 #include <numbers>
 
+#include "stages/noise_host.h"
 #include "support/range_scenes.h"
 #include "support/shapes.h"
 

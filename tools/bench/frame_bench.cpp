@@ -29,8 +29,7 @@ double peakMemoryMb() {
 /// Mean times of the stages of a frame, of their sums over all iterations [ms].
 void countStages(benchmark::State& state, const std::map<std::string, double>& sums_ms) {
   for (const auto& [stage, sum_ms] : sums_ms) {
-    state.counters[stage + "_ms"] =
-        benchmark::Counter(sum_ms, benchmark::Counter::kAvgIterations);
+    state.counters[stage + "_ms"] = benchmark::Counter(sum_ms, benchmark::Counter::kAvgIterations);
   }
 }
 
