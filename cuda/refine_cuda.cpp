@@ -9,7 +9,7 @@ namespace rangepose::cuda {
 
 template <typename Task>
 std::vector<int> Refiner::uploadPoints(const std::vector<Task>& tasks, cudaStream_t stream) {
-  const std::vector<int> first = places_.place(tasks);
+  std::vector<int> first = places_.place(tasks);
   const std::vector<SurfacePoint>& kept = places_.kept();
   const std::vector<SurfacePoint>& others = places_.others();
   const std::size_t all = kept.size() + others.size();

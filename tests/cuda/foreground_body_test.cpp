@@ -240,8 +240,7 @@ TEST(ForegroundBodyTest, SamplesFitTheirMemory) {
   for (const auto& [width, height] : {std::pair{640, 480}, {97, 71}, {1920, 1200}}) {
     const int most = cuda::mostSamples(width, height);
     for (int each = 1; each <= 12; ++each) {
-      const double measured = static_cast<double>((width + each - 1) / each) *
-                              static_cast<double>((height + each - 1) / each);
+      const int measured = ((width + each - 1) / each) * ((height + each - 1) / each);
       const int stride = sampleStride(measured);
       int samples = 0;
       for (int v = 0; v < height; v += stride) {
