@@ -1,5 +1,7 @@
 #include "cuda/check.h"
+#include "cuda/extent_body.h"
 #include "cuda/foreground.h"
+#include "cuda/foreground_body.h"
 #include "cuda/pixels.h"
 #include "cuda/storage.h"
 

@@ -8,7 +8,7 @@
 
 #include <cstdint>
 
-#include "cuda/foreground_body.h"
+#include "cuda/foreground_types.h"
 
 namespace rangepose::cuda {
 

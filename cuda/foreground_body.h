@@ -3,88 +3,13 @@
 // takes its samples out.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #include "cuda/block.h"
-#include "cuda/noise_body.h"
+#include "cuda/foreground_types.h"
 #include "stages/dropouts_core.h"
-#include "stages/foreground_core.h"
 
 namespace rangepose::cuda {
-
-inline constexpr int kMostPlanes = 6;
-/// Random numbers that a round draws.
-inline constexpr int kDrawsOfRound = 3 * kPlaneTrials;
-
-/// Samples, number by number.
-struct SampleArrays {
-  double* values = nullptr;  ///< 6 * capacity
-  int capacity = 0;
-
-  RP_HD SurfaceSample get(int i) const {
-    const double* at = values + i;
-    const auto next = static_cast<std::size_t>(capacity);
-    return {{at[0], at[next], at[2 * next]}, {at[3 * next], at[4 * next], at[5 * next]}};
-  }
-  RP_HD void set(int i, const SurfaceSample& sample) const {
-    double* at = values + i;
-    const auto next = static_cast<std::size_t>(capacity);
-    for (int k = 0; k < 3; ++k) {
-      at[static_cast<std::size_t>(k) * next] = sample.point[k];
-      at[static_cast<std::size_t>(k + 3) * next] = sample.normal[k];
-    }
-  }
-};
-
-/// So many samples an image of that size has at most. With a stride of n these are no more than the
-/// measured pixels, of which there are fewer than would make the stride n + 1, and no more than the
-/// cells of the grid.
-inline int mostSamples(int width, int height) {
-  const double pixels = static_cast<double>(width) * height;
-  double most = 0.0;
-  for (int stride = 1; stride <= sampleStride(pixels); ++stride) {
-    const double cells = static_cast<double>((width + stride - 1) / stride) *
-                         static_cast<double>((height + stride - 1) / stride);
-    const double measured = kSamplesWanted * (stride + 1) * (stride + 1);
-    const double samples = measured < cells ? measured : cells;
-    most = samples > most ? samples : most;
-  }
-  return static_cast<int>(most);
-}
-
-/// What is known of the foreground so far. All zero before the first launch.
-struct ForegroundState {
-  NoiseState noise;
-  int measured = 0;           ///< pixels
-  int lost = 0;               ///< pixels that can be filled
-  double tolerance_mm = 0.0;  ///< of the planes, at that noise
-  double total = 0.0;         ///< samples of the image
-  int samples = 0;            ///< that are left
-  int side = 0;               ///< which of the two arrays they are in
-  int planes = 0;
-  int done = 0;                 ///< 1: there is no further plane
-  unsigned long long best = 0;  ///< see planeKey(); of the planes of this round
-  BackgroundPlane plane[kMostPlanes];
-};
-
-/// What is asked.
-struct ForegroundRules {
-  Camera camera;
-  ForegroundOptions options;  ///< tolerance: of thick parts
-  double thin_mm = 0.0;       ///< see ForegroundTask
-  KeepRule keep;              ///< its margin follows from the noise
-};
-
-/// Orders planes by their samples, then by how early they were tried. Never 0.
-RP_HD unsigned long long planeKey(int samples, int trial) {
-  return static_cast<unsigned long long>(samples) << 32 |
-         static_cast<unsigned long long>(0xffffffffU - static_cast<unsigned>(trial));
-}
-RP_HD int trialOf(unsigned long long key) {
-  return static_cast<int>(0xffffffffU - static_cast<unsigned>(key & 0xffffffffU));
-}
 
 /// Depth of a pixel [mm] with lost pixels filled; `lost` says whether it was one. `read(u, v)`
 /// gives a depth [mm].
@@ -102,9 +27,11 @@ RP_BODY float filledPixel(
 /// Whether a pixel of that depth [mm] is foreground, by the planes found so far.
 RP_BODY bool isForeground(
     const ForegroundState& state, const ForegroundRules& rules, int u, int v, float mm) {
-  KeepRule rule = rules.keep;
-  rule.margin_mm = kMarginTolerances * state.tolerance_mm;
-  return mm > 0.0f && keeps(rule, state.plane, state.planes, rules.camera.unproject(u, v, mm));
+  return mm > 0.0f && keeps(rules.bin,
+                            state.plane,
+                            state.planes,
+                            state.tolerance_mm,
+                            rules.camera.unproject(u, v, mm));
 }
 
 /// Calls `place(thread, first)` for each thread, `first` being how many things the threads before
@@ -226,7 +153,7 @@ RP_BODY void tryPlane(Block& block,
       [&] { shared.exists = planeOfTrial(state, rules, samples, draws, trial, shared.plane); });
   block.barrier();
   if (!shared.exists) return;
-  const int stride = state.samples > kTrialSamples ? state.samples / kTrialSamples : 1;
+  const int stride = trialStride(state.samples);
   const double tolerance_mm = state.tolerance_mm;
   const BackgroundPlane plane = shared.plane;
   typename Block::template PerThread<Counts> counts;
@@ -385,48 +312,6 @@ RP_BODY void settlePlane(Block& block,
     state.best = 0;
     if (state.planes >= rules.options.max_planes || state.samples <= kFewestSamples) state.done = 1;
   });
-}
-
-/// Orders doubles like their values do, but for 0 and -0.
-RP_HD unsigned long long orderedKey(double value) {
-  constexpr unsigned long long kSign = 1ULL << 63;
-  unsigned long long bits;
-  memcpy(&bits, &value, sizeof bits);
-  return (bits & kSign) != 0 ? ~bits : bits | kSign;
-}
-RP_HD double valueOfKey(unsigned long long key) {
-  constexpr unsigned long long kSign = 1ULL << 63;
-  const unsigned long long bits = (key & kSign) != 0 ? key & ~kSign : ~key;
-  double value;
-  memcpy(&value, &bits, sizeof value);
-  return value;
-}
-
-/// Smallest x, y, -x and -y of the points of a part of an image. `depth_mm`: 0 where nothing is.
-/// `lower(k, key)` must keep the smallest key of each.
-template <typename Block, typename Lower>
-RP_BODY void extentOfPart(Block& block,
-                          const Camera& camera,
-                          const float* depth_mm,
-                          int part,
-                          int parts,
-                          const Lower& lower) {
-  typename Block::template PerThread<double> least[4];
-  block.forEachThread([&](int thread) {
-    double own[4];
-    for (double& one : own) one = 1.7976931348623157e308;
-    const int pixels = camera.width * camera.height;
-    for (int i = part * Block::kThreads + thread; i < pixels; i += parts * Block::kThreads) {
-      if (depth_mm[i] == 0.0f) continue;
-      const glm::dvec3 point =
-          camera.unproject(i % camera.width, i / camera.width, static_cast<double>(depth_mm[i]));
-      const double numbers[4] = {point.x, point.y, -point.x, -point.y};
-      for (int k = 0; k < 4; ++k) own[k] = numbers[k] < own[k] ? numbers[k] : own[k];
-    }
-    for (int k = 0; k < 4; ++k) least[k][thread] = own[k];
-  });
-  for (int k = 0; k < 4; ++k)
-    block.smallest(least[k], [&](double value) { lower(k, orderedKey(value)); });
 }
 
 }  // namespace rangepose::cuda

@@ -4,21 +4,10 @@
 
 #include "core/error.h"
 #include "cuda/check.h"
+#include "cuda/extent_body.h"
+#include "stages/dropouts_core.h"
 
 namespace rangepose::cuda {
-namespace {
-
-ForegroundRules rulesOf(const Camera& camera, const ForegroundTask& task) {
-  ForegroundRules rules;
-  rules.camera = camera;
-  rules.options = task.options;
-  rules.thin_mm = task.thin_mm;
-  rules.keep = keepRule(task.bin, task.options.tolerance_mm);
-  return rules;
-}
-
-}  // namespace
-
 ForegroundMemory ForegroundFinder::memoryFor(const Camera& camera, const DepthBuffers& buffers) {
   const int samples = mostSamples(camera.width, camera.height);
   measured_.reserve(buffers.depth.size());
@@ -59,7 +48,7 @@ std::unique_ptr<ResidentForeground> ForegroundFinder::find(const DepthImage& mea
   const cudaStream_t stream = workspace_.begin();
   const std::shared_ptr<DepthBuffers> buffers = workspace_.takeDepth(pixels);
   ForegroundMemory memory = memoryFor(camera, *buffers);
-  const ForegroundRules rules = rulesOf(camera, task);
+  const ForegroundRules rules = rulesFor(camera, task);
   measured_.upload(measured.depth_mm.data(), pixels, stream);
   RP_CUDA(cudaMemsetAsync(memory.state, 0, sizeof *memory.state, stream));
   RP_CUDA(cudaMemsetAsync(memory.bins, 0, kNoiseBins * sizeof *memory.bins, stream));

@@ -16,7 +16,7 @@ inline constexpr int kNoiseDigits = 3;
 inline constexpr int kNoiseBins = 2048;
 
 RP_HD int digitBins(int digit) { return digit == 0 ? kNoiseBins : kNoiseBins / 2; }
-RP_HD int digitShift(int digit) { return digit == 0 ? 20 : digit == 1 ? 10 : 0; }
+RP_HD int digitShift(int digit) { return 10 * (kNoiseDigits - 1 - digit); }
 
 struct NoiseState {
   std::uint32_t count = 0;  ///< differences
@@ -65,6 +65,7 @@ RP_BODY void countDigits(Block& block,
                          const Add& add) {
   const int count = digitBins(digit);
   const int shift = digitShift(digit);
+  const int leading = digitShift(digit - 1);
   block.forEachThread([&](int thread) {
     for (int i = thread; i < count; i += Block::kThreads) bins[i] = 0;
   });
@@ -72,8 +73,6 @@ RP_BODY void countDigits(Block& block,
   block.forEachThread([&](int thread) {
     visitDifferences(
         thread, Block::kThreads, part, parts, width, height, read, [&](float, std::uint32_t bits) {
-          // Of the first digit nothing leads.
-          const int leading = shift + (digit == 0 ? 11 : 10);
           if (digit > 0 && bits >> leading != state.known >> leading) return;
           raise(static_cast<int>(bits >> shift) & (count - 1));
         });

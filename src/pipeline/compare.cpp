@@ -84,9 +84,7 @@ class Chained {
           const Run& subject,
           const std::string& path)
       : database_(database), reference_(reference), subject_(subject), path_(path) {
-    foreground_.addImages(reference.trace.foreground,
-                          subject.trace.foreground,
-                          [](std::uint8_t a, std::uint8_t b) { return a == b ? 0.0 : 1.0; });
+    foreground_.addLabels(reference.trace.foreground, subject.trace.foreground);
     for (std::size_t i = 0; i < reference.trace.objects.size(); ++i) {
       compareObject(reference.trace.objects[i], subject.trace.objects[i]);
     }
@@ -121,9 +119,7 @@ class Chained {
  private:
   void compareObject(const ObjectTrace& expected, const ObjectTrace& actual) {
     tallyChannels(expected.scene, actual.scene, scene_);
-    patches_.addImages(expected.labels, actual.labels, [](std::int32_t a, std::int32_t b) {
-      return a == b ? 0.0 : 1.0;
-    });
+    patches_.addLabels(expected.labels, actual.labels);
     for (std::size_t i = 0; i < std::min(expected.seeds.size(), actual.seeds.size()); ++i) {
       const Seed& a = expected.seeds[i];
       const Seed& b = actual.seeds[i];

@@ -32,8 +32,7 @@ class Isolated {
         reference_, subject_, [&](StageSet& stages) { return stages.foreground(depth_, task); });
     const Foreground& a = expected->on_host;
     const Foreground& b = actual->on_host;
-    foreground_.addImages(
-        a.mask, b.mask, [](std::uint8_t x, std::uint8_t y) { return x == y ? 0.0 : 1.0; });
+    foreground_.addLabels(a.mask, b.mask);
     foreground_.addImages(a.depth.depth_mm, b.depth.depth_mm);
     background_.add(std::abs(a.noise_mm - b.noise_mm));
     for (std::size_t i = 0; i < std::min(a.background.size(), b.background.size()); ++i)
@@ -122,8 +121,7 @@ class Isolated {
         patches_.run(reference_, subject_, [&, &marks = edges](StageSet& stages) {
           return stages.patches(range, marks);
         });
-    patches_.addImages(
-        labels, labels_actual, [](std::int32_t a, std::int32_t b) { return a == b ? 0.0 : 1.0; });
+    patches_.addLabels(labels, labels_actual);
   }
 
   void prepare(const OrthoCamera& camera, const PixelBox& region, const ChannelOptions& options) {

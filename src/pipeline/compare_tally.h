@@ -47,6 +47,11 @@ class Tally {
     }
   }
   void addImages(const Image<float>& reference, const Image<float>& subject);
+  /// Pixels that are the same or are not.
+  template <typename T>
+  void addLabels(const Image<T>& reference, const Image<T>& subject) {
+    addImages(reference, subject, [](const T& a, const T& b) { return a == b ? 0.0 : 1.0; });
+  }
 
   /// Runs `stage` on both paths, timed. Before its first time on the subject it runs once untimed,
   /// for what a path makes once.

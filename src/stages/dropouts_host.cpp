@@ -21,7 +21,8 @@ DepthImage fillDropouts(const DepthImage& image, double noise_mm) {
     }
   }
   const auto all = std::count_if(seen.begin(), seen.end(), [](float mm) { return mm > 0.0f; });
-  return areMany(lost, static_cast<int>(all)) ? filled : image;
+  if (!areMany(lost, static_cast<int>(all))) return image;
+  return filled;
 }
 
 }  // namespace rangepose::host

@@ -12,6 +12,7 @@ inline constexpr int kPlaneTrials = 4000;
 /// A plane is tried on at least so many of the samples, evenly taken from all, if there are as
 /// many.
 inline constexpr int kTrialSamples = 1500;
+RP_HD int trialStride(int samples) { return samples > kTrialSamples ? samples / kTrialSamples : 1; }
 /// A plane that was found is fitted to its samples so many times.
 inline constexpr int kPlaneFits = 3;
 /// Of fewer samples no plane is looked for.
@@ -23,6 +24,8 @@ struct SurfaceSample {
   glm::dvec3 normal;  ///< towards the camera; 0 where a neighbour is missing
 };
 
+/// How near to a plane a point must lie to belong to it [mm]: what thin parts ask for, as far as
+/// the noise allows, and never more than for thick ones.
 RP_HD double toleranceAt(double noise_mm, double coarse_mm, double thin_mm) {
   const double noisy_mm = 3.0 * noise_mm;
   const double least_mm = noisy_mm < coarse_mm ? noisy_mm : coarse_mm;
@@ -149,37 +152,33 @@ RP_HD bool remains(const SurfaceSample& sample,
   return plane.heightOf(sample.point) > kMarginTolerances * tolerance_mm;
 }
 
-/// What decides on a pixel.
-struct KeepRule {
-  double margin_mm = 0.0;  ///< from planes, walls and floor [mm]
-  bool in_bin = false;     ///< whether the rest counts
+/// The bin, for points of the camera frame.
+struct BinRule {
+  bool given = false;  ///< whether the rest counts
   Pose bin_from_camera;
   glm::dvec3 inner_size_mm{0.0};
 };
 
-/// In front of all planes and, if there is a bin, inside of it or above it.
-RP_HD bool keeps(const KeepRule& rule,
-                 const BackgroundPlane* planes,
-                 int count,
-                 const glm::dvec3& point) {
-  for (int i = 0; i < count; ++i) {
-    if (!(planes[i].heightOf(point) > rule.margin_mm)) return false;
-  }
-  if (!rule.in_bin) return true;
-  const glm::dvec3 inside = rule.bin_from_camera * point;
-  const glm::dvec3 half = 0.5 * rule.inner_size_mm - rule.margin_mm;
-  return inside.x < half.x && inside.x > -half.x && inside.y < half.y && inside.y > -half.y &&
-         inside.z > rule.margin_mm;
+inline BinRule binRule(const std::optional<BinBox>& bin) {
+  if (!bin) return {};
+  return {true, bin->camera_from_bin.inverse(), bin->inner_size_mm};
 }
 
-inline KeepRule keepRule(const std::optional<BinBox>& bin, double tolerance_mm) {
-  KeepRule rule;
-  rule.margin_mm = kMarginTolerances * tolerance_mm;
-  if (!bin) return rule;
-  rule.in_bin = true;
-  rule.bin_from_camera = bin->camera_from_bin.inverse();
-  rule.inner_size_mm = bin->inner_size_mm;
-  return rule;
+/// In front of all planes and, if there is a bin, inside of it or above it, each by the margin.
+RP_HD bool keeps(const BinRule& bin,
+                 const BackgroundPlane* planes,
+                 int count,
+                 double tolerance_mm,
+                 const glm::dvec3& point) {
+  const double margin_mm = kMarginTolerances * tolerance_mm;
+  for (int i = 0; i < count; ++i) {
+    if (!(planes[i].heightOf(point) > margin_mm)) return false;
+  }
+  if (!bin.given) return true;
+  const glm::dvec3 inside = bin.bin_from_camera * point;
+  const glm::dvec3 half = 0.5 * bin.inner_size_mm - margin_mm;
+  return inside.x < half.x && inside.x > -half.x && inside.y < half.y && inside.y > -half.y &&
+         inside.z > margin_mm;
 }
 
 }  // namespace rangepose

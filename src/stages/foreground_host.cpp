@@ -48,7 +48,7 @@ struct TrialSamples {
   std::vector<double> nx, ny, nz;  ///< normals
 
   explicit TrialSamples(const Samples& samples) {
-    const std::size_t stride = std::max<std::size_t>(1, samples.size() / kTrialSamples);
+    const auto stride = static_cast<std::size_t>(trialStride(static_cast<int>(samples.size())));
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       const SurfaceSample& sample = samples[i];
       x.push_back(sample.point.x);
@@ -189,14 +189,15 @@ Image<std::uint8_t> foregroundMask(const DepthImage& image,
                                    const std::optional<BinBox>& bin,
                                    const ForegroundOptions& options) {
   Image<std::uint8_t> mask(image.depth_mm.width(), image.depth_mm.height(), 0);
-  const KeepRule rule = keepRule(bin, options.tolerance_mm);
+  const BinRule in_bin = binRule(bin);
   parallelForEach(static_cast<std::size_t>(mask.height()), kRowsPerPiece, [&](std::size_t row) {
     const int v = static_cast<int>(row);
     for (int u = 0; u < mask.width(); ++u) {
       const double depth = image.depth_mm.at(u, v);
-      if (depth > 0.0 && keeps(rule,
+      if (depth > 0.0 && keeps(in_bin,
                                planes.data(),
                                static_cast<int>(planes.size()),
+                               options.tolerance_mm,
                                image.camera.unproject(u, v, depth)))
         mask.at(u, v) = 1;
     }

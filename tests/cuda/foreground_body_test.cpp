@@ -9,10 +9,9 @@
 #include <atomic>
 #include <set>
 
+#include "cuda/extent_body.h"
 #include "cuda/foreground_scene.h"
 #include "cuda/threaded_block.h"
-#include "stages/dropouts_host.h"
-#include "stages/noise_host.h"
 #include "stages/plane_draws.h"
 
 namespace rangepose {
@@ -27,11 +26,9 @@ using Block = cuda::HostBlock<kThreads>;
 class Launches {
  public:
   explicit Launches(const test::ForegroundScene& scene)
-      : measured(scene.image.depth_mm), depth(measured) {
-    rules.camera = scene.image.camera;
-    rules.options = scene.task.options;
-    rules.thin_mm = scene.task.thin_mm;
-    rules.keep = keepRule(scene.task.bin, 0.0);
+      : measured(scene.image.depth_mm),
+        depth(measured),
+        rules(cuda::rulesFor(scene.image.camera, scene.task)) {
     const int most = cuda::mostSamples(measured.width(), measured.height());
     for (int side = 0; side < 2; ++side) {
       values[side].assign(6 * static_cast<std::size_t>(most), -777.0);

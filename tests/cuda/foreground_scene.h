@@ -10,8 +10,7 @@
 #include <vector>
 
 #include "stages/foreground_host.h"
-#include "support/box_mesh.h"
-#include "support/shapes.h"
+#include "support/bins.h"
 
 namespace rangepose::test {
 
@@ -20,10 +19,6 @@ struct ForegroundScene {
   DepthImage image;
   ForegroundTask task;
 };
-
-inline Box boxAt(double x, double y, const glm::dvec3& size) {
-  return {{x, y, 0.0}, glm::dvec3(x, y, 0.0) + size};
-}
 
 inline void addNoise(DepthImage& image, double sigma_mm, double lost, double step_mm) {
   std::mt19937 random(7);
@@ -39,16 +34,8 @@ inline void addNoise(DepthImage& image, double sigma_mm, double lost, double ste
 
 /// A bin with walls to the left and right, boxes, and a large sheet behind which nothing lies.
 inline ForegroundScene binScene(const std::string& name, const Camera& camera) {
-  ForegroundScene scene{name, {camera, {}}, {}};
-  Pose bin;
-  bin.rotation = rotationFromVector({std::numbers::pi + 0.2, 0.0, 0.0});
-  bin.translation_mm = {0.0, 0.0, 470.0};
-  measure(scene.image, plateMesh(260.0, 220.0), bin);
-  for (const double side : {-1.0, 1.0}) {
-    const Pose wall{rotationFromVector({0.0, 0.5 * std::numbers::pi, 0.0}),
-                    {130.0 * side, 0.0, 35.0}};
-    measure(scene.image, plateMesh(70.0, 220.0), bin * wall);
-  }
+  const Pose bin = aboveTable(470.0);
+  ForegroundScene scene{name, emptyBin(camera, bin, {-1.0, 1.0}), {}};
   measure(scene.image,
           meshOf({boxAt(50.0, -20.0, {40.0, 40.0, 20.0}), boxAt(0.0, 30.0, {50.0, 30.0, 22.0})}),
           bin);
@@ -80,8 +67,7 @@ inline std::vector<ForegroundScene> foregroundScenes() {
   addNoise(scenes.back().image, 0.3, 0.05, 0.0);
   scenes.push_back(binScene("a bin box", pinhole));
   scenes.back().task.bin =
-      BinBox{{rotationFromVector({std::numbers::pi + 0.2, 0.0, 0.0}), {10.0, 0.0, 470.0}},
-             {150.0, 150.0, 60.0}};
+      BinBox{{aboveTable(470.0).rotation, {10.0, 0.0, 470.0}}, {150.0, 150.0, 60.0}};
   scenes.push_back(binScene("no plane asked for", pinhole));
   scenes.back().task.options.max_planes = 0;
   scenes.push_back({"nothing", {pinhole, Image<float>(320, 240, 0.0f)}, scenes.front().task});

@@ -8,29 +8,18 @@
 #include "sim/heap.h"
 #include "sim/scanner.h"
 #include "stages/foreground_host.h"
-#include "support/box_mesh.h"
-#include "support/shapes.h"
+#include "support/bins.h"
 
 namespace rangepose {
 namespace {
 
-constexpr double kTiltRad = 0.2;
-
-/// The world's z axis points from the table towards the camera.
-Pose aboveTable(double distance_mm) {
-  Pose camera_from_world;
-  camera_from_world.rotation = rotationFromVector({std::numbers::pi + kTiltRad, 0.0, 0.0});
-  camera_from_world.translation_mm = {0.0, 0.0, distance_mm};
-  return camera_from_world;
-}
+using test::aboveTable;
+using test::boxAt;
+using test::emptyBin;
 
 Camera camera() { return test::pinholeCamera(320, 240, 420.0); }
 
 DepthImage nothing() { return {camera(), Image<float>(320, 240, 0.0f)}; }
-
-test::Box boxAt(double x, double y, const glm::dvec3& size) {
-  return {{x, y, 0.0}, glm::dvec3(x, y, 0.0) + size};
-}
 
 Mesh threeParts() {
   return test::meshOf({boxAt(-70.0, -40.0, {50.0, 30.0, 22.0}),
@@ -130,22 +119,9 @@ TEST(ForegroundTest, SameAnswerTwice) {
   }
 }
 
-/// A floor with a wall on some sides: -1 or 1 along x.
-DepthImage emptyBin(const Pose& bin, const std::vector<double>& sides) {
-  DepthImage image = nothing();
-  test::measure(image, test::plateMesh(260.0, 220.0), bin);
-  for (const double side : sides) {
-    Pose wall;
-    wall.rotation = rotationFromVector({0.0, 0.5 * std::numbers::pi, 0.0});
-    wall.translation_mm = {130.0 * side, 0.0, 35.0};
-    test::measure(image, test::plateMesh(70.0, 220.0), bin * wall);
-  }
-  return image;
-}
-
 TEST(ForegroundTest, FloorAndWallsAreRemoved) {
   const Pose bin = aboveTable(470.0);
-  DepthImage image = emptyBin(bin, {-1.0, 1.0});
+  DepthImage image = emptyBin(camera(), bin, {-1.0, 1.0});
   const Image<std::uint8_t> parts = addParts(image, threeParts(), bin);
   const ForegroundOptions options = optionsFor(62.0);
   const std::vector<BackgroundPlane> planes = host::findBackground(image, options);
@@ -204,7 +180,7 @@ TEST(ForegroundTest, FlatPartsSideBySideKeepTheirFaces) {
 /// A bin with a wall, a box, and a large sheet behind which nothing lies.
 struct SheetInABin {
   Pose bin = aboveTable(470.0);
-  DepthImage image = emptyBin(bin, {1.0});
+  DepthImage image = emptyBin(camera(), bin, {1.0});
   Image<std::uint8_t> sheet;
 
   SheetInABin() {
