@@ -1,6 +1,6 @@
 // Mounting bracket without any symmetry: base plate and wall joined by a fillet, a rib near one end, a boss
 // with a blind hole near the other, a slot in the base and a large hole off-centre in the wall.
-// Base on z = 0, wall along y at x = 0.
+// Base on z = 0, wall along y at x = 0. fitting/angle.scad takes its plates and openings from here.
 
 width = 64;        // along y [mm]
 depth = 56;        // of the base along x [mm]
@@ -48,8 +48,8 @@ module rib() {
       polygon([[1, 1], [depth - 14, 1], [depth - 14, thickness + 1], [thickness + 1, height - 10], [1, height - 10]]);
 }
 
-module holes() {
-  translate([boss_at[0], boss_at[1], 4]) cylinder(r = 4, h = boss_height);
+// Slot in the base, hole in the wall.
+module openings() {
   translate([0, 0, -1]) linear_extrude(height = thickness + 2)
     hull() for (y = [24, 30]) translate([depth - 14, y - 2]) circle(r = 4);
   translate([-1, width - 22, height - 18]) rotate([0, 90, 0]) cylinder(r = 10, h = thickness + 2);
@@ -62,5 +62,6 @@ difference() {
     translate([boss_at[0], boss_at[1], 0.5]) cylinder(r = boss_radius, h = boss_height - 1.5);
     translate([boss_at[0], boss_at[1], boss_height - 1.01]) cylinder(r1 = boss_radius, r2 = boss_radius - 1, h = 1.01);
   }
-  holes();
+  translate([boss_at[0], boss_at[1], 4]) cylinder(r = 4, h = boss_height);
+  openings();
 }
