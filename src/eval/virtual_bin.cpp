@@ -38,7 +38,7 @@ ScannerOptions scannerOf(const VirtualBin& bin, const BinScanOptions& options) {
     scanner.height = std::max(8, static_cast<int>(std::lround(bin.inner_mm.y / options.pixel_mm)));
   }
   scanner.tilt_rad = 0.0;
-  scanner.noise = options.noise;
+  scanner.sensor = options.sensor;
   scanner.seed = options.seed;
   return scanner;
 }
@@ -55,7 +55,6 @@ double heightFor(const VirtualBin& bin, const BinScanOptions& options) {
 
 void BinScanOptions::check() const {
   RP_CHECK(pixel_mm > 0.0, "bin scan: pixel_mm must be positive");
-  RP_CHECK(noise >= 0 && noise <= 2, "bin scan: noise must be 0, 1 or 2");
 }
 
 BinScan scanVirtualBin(const VirtualBin& bin,

@@ -7,6 +7,7 @@
 #include "core/camera.h"
 #include "core/pose.h"
 #include "geometry/mesh.h"
+#include "sim/sensor_model.h"
 
 namespace rangepose {
 
@@ -19,9 +20,9 @@ struct VirtualBin {
 };
 
 struct BinScanOptions {
-  bool orthographic = true;  ///< as the references; else a pinhole camera over the bin's middle
-  double pixel_mm = 0.5;     ///< of the orthographic scan; the pinhole camera has 640 x 480 pixels
-  int noise = 0;             ///< 0 none; 1, 2 as ScannerOptions::noise
+  bool orthographic = true;  ///< as the references; else the sensor's camera over the bin's middle
+  double pixel_mm = 0.5;     ///< of the orthographic scan
+  SensorModel sensor = sensorModel("none");
   std::uint64_t seed = 1;    ///< of the noise
   void check() const;        ///< throws Error naming the bad field
 };

@@ -85,6 +85,15 @@ void renderPart(const Mesh& mesh, std::size_t index, const Pose& pose, CleanView
 
 }  // namespace
 
+Camera padded(const Camera& camera, int margin_px) {
+  Camera wide = camera;
+  wide.width += 2 * margin_px;
+  wide.height += 2 * margin_px;
+  wide.cx += margin_px;
+  wide.cy += margin_px;
+  return wide;
+}
+
 CleanView renderHeap(const std::vector<Mesh>& meshes,
                      const std::vector<PlacedPart>& heap,
                      const Camera& camera,

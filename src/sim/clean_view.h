@@ -32,6 +32,9 @@ struct Surroundings {
   Mesh fixed;               ///< world frame; no triangles: none
 };
 
+/// The same camera with margin_px more image on all sides.
+Camera padded(const Camera& camera, int margin_px);
+
 /// Silhouettes are counted within the camera's image.
 CleanView renderHeap(const std::vector<Mesh>& meshes,
                      const std::vector<PlacedPart>& heap,

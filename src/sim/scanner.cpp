@@ -2,23 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 
 #include "core/error.h"
+#include "sim/sensing.h"
 
 namespace rangepose {
 namespace {
-
-/// The same camera with more image on all sides.
-Camera padded(const Camera& camera, int margin_px) {
-  Camera wide = camera;
-  wide.width += 2 * margin_px;
-  wide.height += 2 * margin_px;
-  wide.cx += margin_px;
-  wide.cy += margin_px;
-  return wide;
-}
 
 template <typename T>
 Image<T> cropped(const Image<T>& image, int margin_px) {
@@ -27,6 +17,16 @@ Image<T> cropped(const Image<T>& image, int margin_px) {
     std::copy_n(image.row(y + margin_px) + margin_px, result.width(), result.row(y));
   }
   return result;
+}
+
+/// The image of a view that reaches margin_px beyond it on all sides.
+CleanView cropped(const CleanView& wide, const Camera& camera, int margin_px) {
+  CleanView view;
+  view.camera = camera;
+  view.surface = cropped(wide.surface, margin_px);
+  view.part = cropped(wide.part, margin_px);
+  view.silhouette_px = wide.silhouette_px;
+  return view;
 }
 
 void grow(PixelBox& box, int u, int v) {
@@ -117,28 +117,28 @@ void checkDistance(const std::vector<Mesh>& meshes,
 }  // namespace
 
 void ScannerOptions::check() const {
-  RP_CHECK(width >= 8 && height >= 8 && width <= 8192 && height <= 8192,
+  const auto isSize = [](int size) { return size == 0 || (size >= 8 && size <= 8192); };
+  RP_CHECK(isSize(width) && isSize(height),
            "scanner: image size " + std::to_string(width) + "x" + std::to_string(height) +
-               ", must be 8 to 8192 each");
+               ", must be 8 to 8192 each, or 0 for that of the sensor");
   RP_CHECK(focal_px >= 0.0, "scanner: focal_px must not be negative");
   RP_CHECK(distance_mm >= 0.0, "scanner: distance_mm must not be negative");
   RP_CHECK(pixel_size_mm >= 0.0, "scanner: pixel_size_mm must not be negative");
   RP_CHECK(tilt_rad >= 0.0 && tilt_rad < 1.0, "scanner: tilt_rad must be 0 to 1");
-  RP_CHECK(depth_scale > 0.0, "scanner: depth_scale must be positive");
-  RP_CHECK(noise >= 0 && noise <= 2,
-           "scanner: noise is " + std::to_string(noise) + ", must be 0, 1 or 2");
+  RP_CHECK(depth_scale >= 0.0, "scanner: depth_scale must not be negative");
 }
 
 Camera scannerCamera(const ScannerOptions& options) {
   options.check();
+  const SensorModel& sensor = options.sensor;
   Camera camera;
-  camera.width = options.width;
-  camera.height = options.height;
-  camera.fx = options.focal_px > 0.0 ? options.focal_px : 570.0 * options.width / 640.0;
-  camera.fy = camera.fx;
-  camera.cx = 0.5 * (options.width - 1);
-  camera.cy = 0.5 * (options.height - 1);
-  camera.depth_scale = options.depth_scale;
+  camera.width = options.width > 0 ? options.width : sensor.width;
+  camera.height = options.height > 0 ? options.height : sensor.height;
+  camera.fx = options.focal_px > 0.0 ? options.focal_px : sensor.fx * camera.width / sensor.width;
+  camera.fy = camera.fx * sensor.fy / sensor.fx;
+  camera.cx = 0.5 * (camera.width - 1);
+  camera.cy = 0.5 * (camera.height - 1);
+  camera.depth_scale = options.depth_scale > 0.0 ? options.depth_scale : sensor.depth_scale;
   camera.orthographic = options.orthographic;
   if (options.orthographic) {
     camera.pixel_size_mm =
@@ -175,25 +175,14 @@ Scan scanFrom(const std::vector<Mesh>& meshes,
   const int margin_px = camera.width / 2;
   const Camera wide_camera = padded(camera, margin_px);
   const CleanView wide = renderHeap(meshes, heap, wide_camera, camera_from_world, surroundings);
-  const Image<SurfaceTexel> seen = cropped(wide.surface, margin_px);
+  const RenderFrom render = [&](const Camera& from, const glm::dvec3& position_mm) {
+    const Pose there_from_camera{glm::dmat3(1.0), -position_mm};
+    return renderHeap(meshes, heap, from, there_from_camera * camera_from_world, surroundings);
+  };
   Scan scan;
   scan.camera_from_world = camera_from_world;
   scan.image.camera = camera;
-  if (options.noise == 0) {
-    scan.image.depth_mm = depthOf(seen);
-  } else {
-    const SensorNoise noise = sensorNoise(options.noise);
-    std::optional<ProjectorView> projector;
-    if (!camera.orthographic) {
-      const Pose projector_from_camera{glm::dmat3(1.0), {-noise.baseline_mm, 0.0, 0.0}};
-      const Pose projector_from_world = projector_from_camera * camera_from_world;
-      const CleanView lit =
-          renderHeap(meshes, heap, wide_camera, projector_from_world, surroundings);
-      projector = ProjectorView{lit.camera, depthOf(lit.surface), noise.baseline_mm};
-    }
-    Random random(options.seed);
-    scan.image.depth_mm = sensed(seen, camera, projector, noise, random);
-  }
+  scan.image.depth_mm = sense(cropped(wide, camera, margin_px), render, options.sensor, options.seed);
   scan.truth = truthOf(heap, camera_from_world, wide, margin_px, scan.image.depth_mm);
   return scan;
 }
@@ -215,7 +204,7 @@ double distanceFor(const BinShape& bin, const ScannerOptions& options) {
     const double nearer = camera.orthographic ? 0.0 : from.distance_mm - p.z;
     distance_mm = std::max(distance_mm, needed + nearer);
   }
-  return std::ceil(distance_mm);
+  return std::ceil(std::max(distance_mm, options.sensor.nearest_mm));
 }
 
 Scan scanBin(const std::vector<Mesh>& meshes,

@@ -8,23 +8,23 @@
 #include "sim/bin_shape.h"
 #include "sim/clean_view.h"
 #include "sim/heap.h"
-#include "sim/sensor_noise.h"
+#include "sim/sensor_model.h"
 #include "stages/surface.h"
 
 namespace rangepose {
 
 struct ScannerOptions {
-  int width = 640;                 ///< [px]
-  int height = 480;                ///< [px]
-  double focal_px = 0.0;           ///< 0: 570 for an image 640 wide, in proportion for others
+  SensorModel sensor = sensorModel("structured-light");
+  int width = 0;                   ///< [px], 0: that of the sensor
+  int height = 0;                  ///< [px], 0: that of the sensor
+  double focal_px = 0.0;           ///< 0: that of the sensor, in proportion to the image's width
   double distance_mm = 650.0;      ///< from the camera to the middle of the heap
   bool orthographic = false;       ///< parallel rays; no projector, and so no shadow of its light
   double pixel_size_mm = 0.0;      ///< orthographic; 0: that of a pinhole camera at this distance
   double tilt_rad = 0.2617993878;  ///< of the view from straight down, below 1 (57 degrees)
-  double depth_scale = 0.1;        ///< step of the stored depth [mm]
-  int noise = 1;           ///< 0 none, 1 structured light, 2 a rough sensor (sensor_noise.h)
-  std::uint64_t seed = 1;  ///< of the noise; same seed, same image
-  void check() const;      ///< throws Error naming the bad field
+  double depth_scale = 0.0;        ///< step of the stored depth [mm], 0: that of the sensor
+  std::uint64_t seed = 1;          ///< of the noise; same seed, same image
+  void check() const;              ///< throws Error naming the bad field
 };
 
 struct PartTruth {
@@ -51,7 +51,7 @@ struct Scan {
 Camera scannerCamera(const ScannerOptions& options);
 Pose scannerPose(const std::vector<PlacedPart>& heap, const ScannerOptions& options);
 
-/// Takes a depth image. Depth is rounded to depth_scale unless noise is 0.
+/// Takes a depth image. Depth is rounded to depth_scale unless the sensor is "none".
 Scan scanHeap(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const ScannerOptions& options);
@@ -67,7 +67,8 @@ Scan scanFrom(const std::vector<Mesh>& meshes,
 /// A bin that stands on a table, and what lies in it.
 Surroundings surroundingsOf(const BinShape& bin);
 
-/// The distance from the middle of the bin at which all of it is in the image [mm].
+/// The distance from the middle of the bin at which all of it is in the image, and not nearer than
+/// the sensor measures [mm].
 double distanceFor(const BinShape& bin, const ScannerOptions& options);
 
 /// Over the middle of the bin, `distance_mm` of the options away, 0: distanceFor().

@@ -44,17 +44,22 @@ Image<float> depthOf(const Image<SurfaceTexel>& surface) {
   return depth_mm;
 }
 
-bool isLit(const ProjectorView& projector, const Camera& camera, int u, int v, double depth_mm) {
+bool isLit(const ProjectorView& projector, const glm::dvec3& point_mm) {
   constexpr double kToleranceMm = 1.5;  // a lit point must not shadow itself
-  glm::dvec3 point = camera.unproject(u, v, depth_mm);
-  point.x -= projector.baseline_mm;
-  const glm::dvec2 pixel = projector.camera.project(point);
-  const int left = static_cast<int>(std::floor(pixel.x));
-  const int row = static_cast<int>(std::lround(pixel.y));
-  for (int x = left; x <= left + 1; ++x) {
-    if (!projector.depth_mm.contains(x, row)) continue;
-    const float first_hit = projector.depth_mm.at(x, row);
-    if (first_hit == 0.0f || depth_mm <= first_hit + kToleranceMm) return true;
+  const glm::dvec2 pixel = projector.camera.project(point_mm);
+  // Between two pixels along the baseline, on the nearest one across it: rows (or columns) of the
+  // two views are the same.
+  const bool along_y = projector.position_mm.y != 0.0;
+  const int u =
+      static_cast<int>(along_y ? std::lround(pixel.x) : static_cast<long>(std::floor(pixel.x)));
+  const int v =
+      static_cast<int>(along_y ? static_cast<long>(std::floor(pixel.y)) : std::lround(pixel.y));
+  for (int k = 0; k <= 1; ++k) {
+    const int x = along_y ? u : u + k;
+    const int y = along_y ? v + k : v;
+    if (!projector.depth_mm.contains(x, y)) continue;
+    const float first_hit = projector.depth_mm.at(x, y);
+    if (first_hit == 0.0f || point_mm.z <= first_hit + kToleranceMm) return true;
   }
   return false;
 }
@@ -78,7 +83,9 @@ Image<float> sensed(const Image<SurfaceTexel>& surface,
       const glm::dvec3 ray = camera.viewingRay(camera.unproject(u, v, z));
       const double cosine = std::abs(glm::dot(glm::dvec3(texel), ray));
       if (loss_draw < noise.random_loss || grazing_draw * noise.grazing_cosine > cosine) continue;
-      if (projector && !isLit(*projector, camera, u, v, z)) continue;
+      if (projector && !isLit(*projector, camera.unproject(u, v, z) - projector->position_mm)) {
+        continue;
+      }
       if (edge_draw < noise.edge_loss + noise.edge_mix) {
         const std::optional<double> across = acrossJump(surface, u, v, noise.jump_mm);
         if (across && edge_draw < noise.edge_loss) continue;

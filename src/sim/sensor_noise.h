@@ -1,4 +1,4 @@
-// What a structured-light sensor makes of a surface: holes, noise and steps.
+// What a structured-light or laser sensor makes of a surface: holes, noise and steps.
 #pragma once
 
 #include <optional>
@@ -18,8 +18,7 @@ struct SensorNoise {
   double jump_mm = 3.0;  ///< what counts as a jump
   double grazing_cosine =
       0.0;  ///< surfaces more oblique than this to the ray lose pixels, all of them at 0
-  double random_loss = 0.0;   ///< chance that any pixel is lost
-  double baseline_mm = 75.0;  ///< from the camera to the projector, along the camera's x
+  double random_loss = 0.0;  ///< chance that any pixel is lost
 };
 
 /// 1: a good structured-light sensor. 2: a rough one: a millimetre at 1 m, a tenth of all pixels
@@ -28,15 +27,15 @@ SensorNoise sensorNoise(int level);
 
 /// Depth as the projector would see it: what it does not see is not lit.
 struct ProjectorView {
-  Camera camera;           ///< rectified: same orientation and focal length as the depth camera's
-  Image<float> depth_mm;   ///< 0 nothing
-  double baseline_mm = 0;  ///< its centre along the depth camera's x
+  Camera camera;  ///< rectified: same orientation and focal length as the depth camera's
+  Image<float> depth_mm;        ///< 0 nothing
+  glm::dvec3 position_mm{0.0};  ///< in the depth camera's frame: along its x, or along its y
 };
 
 Image<float> depthOf(const Image<SurfaceTexel>& surface);
 
-/// Whether the projector lights the point seen at pixel (u, v) of the depth camera.
-bool isLit(const ProjectorView& projector, const Camera& camera, int u, int v, double depth_mm);
+/// Whether the projector lights a point, given in the projector's own frame [mm].
+bool isLit(const ProjectorView& projector, const glm::dvec3& point_mm);
 
 /// Depth as measured, in whole steps of camera.depth_scale; 0 where it is lost. Without a projector
 /// all is lit.

@@ -140,14 +140,14 @@ TEST_F(EvaluatePaperTest, OneBinIsTwentyTrialsAndTwiceTheSame) {
 
 TEST_F(EvaluatePaperTest, PerspectiveScansWithNoise) {
   const RunResult result =
-      paper({"--sampling", "uniform", "--camera", "perspective", "--noise", "1"});
+      paper({"--sampling", "uniform", "--camera", "perspective", "--sensor", "structured-light"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("perspective scan with noise 1"));
+  EXPECT_THAT(result.out, HasSubstr("perspective scan by structured-light"));
 }
 
 TEST_F(EvaluatePaperTest, BadInputIsOneLine) {
   EXPECT_TRUE(failsWith(run({"evaluate", "--paper", "nowhere"}), 1, {"nowhere/t_pipe.ply"}));
-  EXPECT_TRUE(failsWith(paper({"--noise", "3"}), 2, {"--noise"}));
+  EXPECT_TRUE(failsWith(paper({"--sensor", "eye"}), 2, {"--sensor"}));
   EXPECT_TRUE(failsWith(paper({"--contact-sheet"}), 2, {"--contact-sheet", "--out"}));
   EXPECT_TRUE(failsWith(paper({"--bop", "x"}), 2, {"--bop", "--paper"}));
   EXPECT_TRUE(failsWith(paper({"--sampling", "random"}), 2, {"--sampling"}));

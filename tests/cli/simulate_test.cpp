@@ -79,7 +79,7 @@ int pixelsShowing(const Mesh& mesh, const Pose& pose, const DepthImage& image) {
 }
 
 TEST_F(SimulateTest, WritesADataSetThatIsReadBack) {
-  const RunResult result = simulate({model("bolt"), model("bracket")}, "set", {"--noise", "none"});
+  const RunResult result = simulate({model("bolt"), model("bracket")}, "set", {"--sensor", "none"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, ContainsRegex("1 +bolt +62.58 +[0-9]+ +C6\n"));
   EXPECT_THAT(result.out, ContainsRegex("2 +bracket +92.38 +[0-9]+ +none\n"));
@@ -164,7 +164,7 @@ TEST_F(SimulateTest, OptionsOfTheScannerAndTheBin) {
                                      "900",
                                      "--tilt",
                                      "0",
-                                     "--noise",
+                                     "--sensor",
                                      "rough"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const BopImage image = openBop(folder() / "set").scenes.at(0).images.at(0);
@@ -200,7 +200,7 @@ TEST_F(SimulateTest, AnOpenMeshIsWarnedOf) {
 TEST_F(SimulateTest, HelpShowsExamples) {
   const RunResult result = run({"simulate", "--help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* word : {"Examples:", "--mixed", "--noise", "--seed", "--bin-size"}) {
+  for (const char* word : {"Examples:", "--mixed", "--sensor", "--seed", "--bin-size"}) {
     EXPECT_THAT(result.out, HasSubstr(word));
   }
 }
@@ -216,7 +216,7 @@ TEST_F(SimulateTest, WrongUsage) {
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--size", "640"}), 2, {"--size"}));
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--bin-size", "10x20"}), 2, {"--bin-size"}));
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--bin-size", "10x20x-3"}), 2, {"--bin-size"}));
-  EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--noise", "loud"}), 2, {"--noise", "loud"}));
+  EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--sensor", "loud"}), 2, {"--sensor", "loud"}));
   EXPECT_THAT(files(), ElementsAre());
 }
 

@@ -74,7 +74,7 @@ TEST_F(EmptyingTest, PinholeScanSeesTheSameParts) {
     EXPECT_GT(pixel.x, 0.0);
     EXPECT_LT(pixel.x, 639.0);
   }
-  options.noise = 3;
+  options.pixel_mm = 0.0;
   EXPECT_THROW(options.check(), Error);
 }
 

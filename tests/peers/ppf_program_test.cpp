@@ -42,7 +42,7 @@ class PpfProgramTest : public ::testing::Test {
                                 "1",
                                 "--count",
                                 "1",
-                                "--noise",
+                                "--sensor",
                                 "none",
                                 "--camera-distance",
                                 "600"});

@@ -190,7 +190,7 @@ struct HeapScene {
     const std::vector<Mesh> meshes = {bracket(2.0)};
     heap = makeHeap(meshes, heap_options);
     ScannerOptions scanner;
-    scanner.noise = 1;
+    scanner.sensor = sensorModel("structured-light");
     scan = scanHeap(meshes, heap, scanner);
   }
 };

@@ -29,7 +29,7 @@ constexpr std::uint64_t kFirstSeed = 20000;
 const char* const kParts[] = {"t_pipe", "bolt", "elbow", "bracket"};
 
 struct Condition {
-  int noise = 0;
+  std::string sensor;
   double hidden = 0.0;
   int trials = 0;
 };
@@ -68,16 +68,16 @@ double errorShare(const ReferenceDatabase& database,
 }
 
 void report(const std::string& part, const Condition& condition, const Share& share, double s) {
-  std::printf("  %-8s noise %d, hidden %2.0f %%: %3d of %3d right (%.1f %%), %.1f s\n",
+  std::printf("  %-8s %s, hidden %2.0f %%: %3d of %3d right (%.1f %%), %.1f s\n",
               part.c_str(),
-              condition.noise,
+              condition.sensor.c_str(),
               100.0 * condition.hidden,
               share.right,
               share.trials,
               100.0 * share.of(),
               s);
   std::fflush(stdout);
-  const std::string key = part + "_noise" + std::to_string(condition.noise) + "_hidden" +
+  const std::string key = part + "_" + condition.sensor + "_hidden" +
                           std::to_string(std::lround(100.0 * condition.hidden));
   testing::Test::RecordProperty(key, std::to_string(share.of()));
 }
@@ -96,7 +96,7 @@ Share tryAll(const std::vector<Condition>& conditions) {
       const auto begin = Clock::now();
       for (; share.trials < condition.trials; ++share.trials, ++seed) {
         const test::PoseTrial trial =
-            test::makePoseTrial(mesh, seed, condition.noise, condition.hidden);
+            test::makePoseTrial(mesh, seed, condition.sensor, condition.hidden);
         if (condition.hidden > 0.0) {
           EXPECT_NEAR(trial.hidden, condition.hidden, 0.1) << part << ", seed " << seed;
         }
@@ -118,12 +118,12 @@ Share tryAll(const std::vector<Condition>& conditions) {
 }
 
 TEST(SyntheticPoseTest, FindsPartsInPlainSight) {
-  const Share all = tryAll({{1, 0.0, 50}, {0, 0.0, 50}});
+  const Share all = tryAll({{"structured-light", 0.0, 50}, {"none", 0.0, 50}});
   EXPECT_GE(all.of(), 0.97);
 }
 
 TEST(SyntheticPoseTest, FindsPartsOfWhichTwoFifthsAreHidden) {
-  const Share all = tryAll({{0, 0.4, 15}, {1, 0.4, 15}});
+  const Share all = tryAll({{"none", 0.4, 15}, {"structured-light", 0.4, 15}});
   EXPECT_GE(all.of(), 0.80);
 }
 

@@ -61,7 +61,7 @@ TEST_P(SpoiledImageTest, LosesFewPartsOfAHeap) {
   heap.count = 6;
   heap.seed = 11;
   ScannerOptions scanner;
-  scanner.noise = 0;
+  scanner.sensor = sensorModel("none");
   const Scan clean = scanHeap({meshOf(part)}, makeHeap({meshOf(part)}, heap), scanner);
   const Judged best = judged(clean, part, "clean");
   const Judged holes = judged(spoiled(clean, 0.0, 0.1), part, "10 % lost");

@@ -20,12 +20,12 @@ struct Scene {
   std::vector<PlacedPart> parts = {{0, Pose{}}};
 };
 
-ScannerOptions options(int noise) {
+ScannerOptions options(const std::string& sensor) {
   ScannerOptions scanner;
   scanner.width = 320;
   scanner.height = 240;
   scanner.distance_mm = 0.0;
-  scanner.noise = noise;
+  scanner.sensor = sensorModel(sensor);
   return scanner;
 }
 
@@ -61,7 +61,7 @@ TEST(BinMeshTest, IsClosedAndFacesOutwards) {
 
 TEST(BinScanTest, FloorRimWallAndTableAreSeenWhereTheyAre) {
   const Scene scene;
-  const Scan scan = scanBin(scene.meshes, scene.parts, kBin, options(0));
+  const Scan scan = scanBin(scene.meshes, scene.parts, kBin, options("none"));
   const double wall = binThickness(kBin);
   const std::vector<glm::dvec3> seen = {
       {100, 0, 0},                 // floor
@@ -75,7 +75,7 @@ TEST(BinScanTest, FloorRimWallAndTableAreSeenWhereTheyAre) {
         << point.x << " " << point.y << " " << point.z;
   }
   // Seen from aside the near wall hides its own inner face and the floor behind it.
-  ScannerOptions aside = options(0);
+  ScannerOptions aside = options("none");
   aside.tilt_rad = 0.8;
   const Scan hidden = scanBin(scene.meshes, scene.parts, kBin, aside);
   EXPECT_LT(depthAt(hidden, {0, -60, 0}), depthOfPoint(hidden, {0, -60, 0}) - 20.0);
@@ -84,7 +84,7 @@ TEST(BinScanTest, FloorRimWallAndTableAreSeenWhereTheyAre) {
 TEST(BinScanTest, AllOfTheBinIsInTheImageAndNotMuchElse) {
   const Scene scene;
   for (const bool orthographic : {false, true}) {
-    ScannerOptions scanner = options(0);
+    ScannerOptions scanner = options("none");
     scanner.orthographic = orthographic;
     const Scan scan = scanBin(scene.meshes, scene.parts, kBin, scanner);
     double least = 1e9;
@@ -99,7 +99,7 @@ TEST(BinScanTest, AllOfTheBinIsInTheImageAndNotMuchElse) {
 
 TEST(BinScanTest, OrthographicRaysAreParallel) {
   const Scene scene;
-  ScannerOptions scanner = options(0);
+  ScannerOptions scanner = options("none");
   scanner.orthographic = true;
   scanner.tilt_rad = 0.0;
   scanner.pixel_size_mm = 1.5;
@@ -117,7 +117,7 @@ TEST(BinScanTest, OrthographicRaysAreParallel) {
     block_px += std::abs(z - floor + 40.0f) < 1e-2f ? 1 : 0;
   }
   EXPECT_NEAR(block_px * 1.5 * 1.5, 60.0 * 40.0, 150.0);
-  scanner.noise = 1;
+  scanner.sensor = sensorModel("structured-light");
   const Scan noisy = scanBin(scene.meshes, scene.parts, kBin, scanner);
   EXPECT_NE(noisy.image.depth_mm, scan.image.depth_mm);
 }
@@ -126,7 +126,7 @@ TEST(BinScanTest, TruthCountsPixelsAndBoxes) {
   Scene scene;
   scene.meshes.push_back(boxMesh({-10, -10, 0}, {10, 10, 20}));
   scene.parts.push_back({1, Pose{glm::dmat3(1.0), {0, 0, 40}}});
-  ScannerOptions scanner = options(0);
+  ScannerOptions scanner = options("none");
   scanner.tilt_rad = 0.0;
   scanner.orthographic = true;
   scanner.pixel_size_mm = 1.0;
@@ -143,7 +143,7 @@ TEST(BinScanTest, TruthCountsPixelsAndBoxes) {
   EXPECT_NEAR(below.all_box.width(), 60, 1);
   EXPECT_NEAR(below.all_box.height(), 40, 1);
   EXPECT_NEAR(above.visible_box.x0 - below.visible_box.x0, 20, 1);
-  scanner.noise = 2;
+  scanner.sensor = sensorModel("rough");
   const Scan rough = scanBin(scene.meshes, scene.parts, kBin, scanner);
   EXPECT_LT(rough.truth[0].measured_px, below.all_px);
   EXPECT_GT(rough.truth[0].measured_px, below.all_px / 2);
@@ -152,7 +152,7 @@ TEST(BinScanTest, TruthCountsPixelsAndBoxes) {
 
 TEST(BinScanTest, APartCutByTheBorderHasABoxBeyondIt) {
   Scene scene;
-  ScannerOptions scanner = options(0);
+  ScannerOptions scanner = options("none");
   scanner.tilt_rad = 0.0;
   scanner.orthographic = true;
   scanner.pixel_size_mm = 1.0;
@@ -167,7 +167,7 @@ TEST(BinScanTest, APartCutByTheBorderHasABoxBeyondIt) {
 TEST(BinScanTest, ANearCameraIsAllowedOnlyOutsideOfTheParts) {
   Scene scene;
   scene.parts[0].world_from_object.translation_mm.z = 60.0;
-  ScannerOptions scanner = options(0);
+  ScannerOptions scanner = options("none");
   scanner.distance_mm = 30.0;
   EXPECT_THROW(scanBin(scene.meshes, scene.parts, kBin, scanner), Error);
   EXPECT_THROW(binMesh(BinShape{{0.0, 10.0, 10.0}}), Error);

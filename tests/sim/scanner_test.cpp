@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "core/error.h"
@@ -12,12 +13,12 @@
 namespace rangepose {
 namespace {
 
-ScannerOptions smallScanner(int noise) {
+ScannerOptions smallScanner(const std::string& sensor) {
   ScannerOptions options;
   options.width = 160;
   options.height = 120;
   options.distance_mm = 700.0;
-  options.noise = noise;
+  options.sensor = sensorModel(sensor);
   return options;
 }
 
@@ -38,7 +39,7 @@ int lostPixels(const Scan& scan) {
 
 TEST(ScannerTest, WithoutNoiseItIsTheCleanRender) {
   const Stack stack;
-  const ScannerOptions options = smallScanner(0);
+  const ScannerOptions options = smallScanner("none");
   const Scan scan = scanHeap(stack.meshes, stack.heap, options);
   const CleanView clean = renderHeap(
       stack.meshes, stack.heap, scannerCamera(options), scannerPose(stack.heap, options));
@@ -53,7 +54,7 @@ TEST(ScannerTest, WithoutNoiseItIsTheCleanRender) {
 
 TEST(ScannerTest, DepthOfTableAndPartsIsExact) {
   const Stack stack;
-  ScannerOptions options = smallScanner(0);
+  ScannerOptions options = smallScanner("none");
   options.tilt_rad = 0.0;
   const Scan scan = scanHeap(stack.meshes, stack.heap, options);
   // The camera looks at the mean of the parts' origins, (0, 0, 5), from 700 mm above.
@@ -64,7 +65,7 @@ TEST(ScannerTest, DepthOfTableAndPartsIsExact) {
 
 TEST(ScannerTest, TruthProjectsOntoWhatIsSeen) {
   const Stack stack;
-  const ScannerOptions options = smallScanner(0);
+  const ScannerOptions options = smallScanner("none");
   const Scan scan = scanHeap(stack.meshes, stack.heap, options);
   // The middle of the block's top face, by the true pose.
   const glm::dvec3 top = scan.truth[1].camera_from_object * glm::dvec3(0, 0, 40);
@@ -76,7 +77,7 @@ TEST(ScannerTest, TruthProjectsOntoWhatIsSeen) {
 
 TEST(ScannerTest, VisibleFractionCountsWhatIsHidden) {
   const Stack stack;
-  ScannerOptions options = smallScanner(0);
+  ScannerOptions options = smallScanner("none");
   options.tilt_rad = 0.0;
   options.distance_mm = 2000.0;
   options.focal_px = 1200.0;
@@ -89,7 +90,7 @@ TEST(ScannerTest, VisibleFractionCountsWhatIsHidden) {
 TEST(ScannerTest, PartCutByTheBorderIsPartlyVisible) {
   const std::vector<Mesh> meshes = {boxMesh({-20, -20, 0}, {20, 20, 1})};
   const std::vector<PlacedPart> heap = {placedAt(0, {-200, 0, 0}), placedAt(0, {200, 0, 0})};
-  ScannerOptions options = smallScanner(0);
+  ScannerOptions options = smallScanner("none");
   options.tilt_rad = 0.0;
   options.focal_px = 79.5 * 700.0 / 200.0;  // 200 mm aside is the last column
   const Scan scan = scanHeap(meshes, heap, options);
@@ -104,7 +105,7 @@ TEST(ScannerTest, FractionsOfAHeapAreFractions) {
   heap_options.radius_mm = 30.0;
   const std::vector<Mesh> meshes = {angleMesh()};
   const std::vector<PlacedPart> heap = makeHeap(meshes, heap_options);
-  const Scan scan = scanHeap(meshes, heap, smallScanner(1));
+  const Scan scan = scanHeap(meshes, heap, smallScanner("structured-light"));
   ASSERT_EQ(scan.truth.size(), 6u);
   double lowest = 1.0;
   for (const PartTruth& part : scan.truth) {
@@ -117,7 +118,7 @@ TEST(ScannerTest, FractionsOfAHeapAreFractions) {
 
 TEST(ScannerTest, SameSeedSameImage) {
   const Stack stack;
-  ScannerOptions options = smallScanner(2);
+  ScannerOptions options = smallScanner("rough");
   const Scan first = scanHeap(stack.meshes, stack.heap, options);
   EXPECT_EQ(first.image.depth_mm, scanHeap(stack.meshes, stack.heap, options).image.depth_mm);
   options.seed = 2;
@@ -126,11 +127,11 @@ TEST(ScannerTest, SameSeedSameImage) {
 
 TEST(ScannerTest, NoiseGrowsWithItsLevelAndStaysSmall) {
   const Stack stack;
-  const Scan clean = scanHeap(stack.meshes, stack.heap, smallScanner(0));
+  const Scan clean = scanHeap(stack.meshes, stack.heap, smallScanner("none"));
   std::vector<double> deviation_mm;
   std::vector<int> lost;
-  for (const int level : {1, 2}) {
-    const Scan noisy = scanHeap(stack.meshes, stack.heap, smallScanner(level));
+  for (const std::string sensor : {"structured-light", "rough"}) {
+    const Scan noisy = scanHeap(stack.meshes, stack.heap, smallScanner(sensor));
     double sum_sq = 0.0;
     int count = 0;
     for (std::size_t i = 0; i < noisy.image.depth_mm.size(); ++i) {
@@ -153,7 +154,7 @@ TEST(ScannerTest, NoiseGrowsWithItsLevelAndStaysSmall) {
 
 TEST(ScannerTest, MeasuredDepthIsInWholeSteps) {
   const Stack stack;
-  const Scan scan = scanHeap(stack.meshes, stack.heap, smallScanner(1));
+  const Scan scan = scanHeap(stack.meshes, stack.heap, smallScanner("structured-light"));
   for (const float depth : scan.image.depth_mm) {
     const double steps = depth / scan.image.camera.depth_scale;
     ASSERT_NEAR(steps, std::round(steps), 1e-3);
@@ -163,7 +164,7 @@ TEST(ScannerTest, MeasuredDepthIsInWholeSteps) {
 TEST(ScannerTest, BlockShadowsTheTableOnTheFarSideOfTheProjector) {
   const std::vector<Mesh> meshes = {boxMesh({-20, -20, 0}, {20, 20, 120})};
   const std::vector<PlacedPart> heap = {placedAt(0, {0, 0, 0})};
-  ScannerOptions options = smallScanner(1);
+  ScannerOptions options = smallScanner("structured-light");
   options.width = 320;
   options.tilt_rad = 0.0;
   const Scan scan = scanHeap(meshes, heap, options);
@@ -185,19 +186,17 @@ TEST(ScannerTest, BlockShadowsTheTableOnTheFarSideOfTheProjector) {
 
 TEST(ScannerTest, CameraWithinTheHeapIsRefused) {
   const Stack stack;
-  ScannerOptions options = smallScanner(0);
+  ScannerOptions options = smallScanner("none");
   options.distance_mm = 60.0;
   EXPECT_THROW(scanHeap(stack.meshes, stack.heap, options), Error);
 }
 
 TEST(ScannerTest, BadOptionsAreRefused) {
   const Stack stack;
-  ScannerOptions options = smallScanner(3);
+  ScannerOptions options = smallScanner("structured-light");
+  options.width = 4;
   EXPECT_THROW(scanHeap(stack.meshes, stack.heap, options), Error);
-  options = smallScanner(1);
-  options.width = 0;
-  EXPECT_THROW(scanHeap(stack.meshes, stack.heap, options), Error);
-  EXPECT_THROW(scanHeap(stack.meshes, {}, smallScanner(1)), Error);
+  EXPECT_THROW(scanHeap(stack.meshes, {}, smallScanner("structured-light")), Error);
 }
 
 }  // namespace

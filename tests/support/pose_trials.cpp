@@ -73,7 +73,7 @@ int measuredPixels(const std::vector<Mesh>& meshes,
 
 }  // namespace
 
-PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double hidden) {
+PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, const std::string& sensor, double hidden) {
   PoseTrial trial;
   std::mt19937_64 random(seed);
   const Sphere sphere = boundingSphere(mesh);
@@ -85,7 +85,7 @@ PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, int noise, double 
   part.world_from_object.translation_mm =
       center - part.world_from_object.rotation * sphere.center_mm;
   ScannerOptions options;
-  options.noise = noise;
+  options.sensor = sensorModel(sensor);
   options.seed = seed;
   // Looks at the middle of the table, not at the part.
   PlacedPart aim;

@@ -24,6 +24,7 @@ struct Arguments {
   std::string out;
   std::string unit = "mm";
   std::string size = "640x480";
+  std::string sensor = "structured-light";
   std::uint64_t seed = 1;
   double tilt_deg = 15.0;
   HeapOptions heap;
@@ -49,7 +50,8 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--count", heap.count, "Parts in the heap");
   app.add_option("--seed", arguments.seed, "Same seed, same files");
   app.add_option("--radius", heap.radius_mm, "Of the heap [mm]; 0: from the parts");
-  app.add_option("--noise", scanner.noise, "0 none, 1 structured light, 2 a rough sensor");
+  app.add_option("--sensor", arguments.sensor, "What takes the image")
+      ->check(CLI::IsMember(sensorNames()));
   app.add_option("--camera-distance", scanner.distance_mm, "To the middle of the heap [mm]");
   app.add_option("--tilt", arguments.tilt_deg, "Of the view from straight down [degrees]")
       ->check(CLI::Range(0.0, 57.0));
@@ -96,6 +98,7 @@ void makeScan(Arguments& arguments) {
   meshes.reserve(arguments.meshes.size());
   for (const std::string& path : arguments.meshes) meshes.push_back(readMesh(path, unit));
   ScannerOptions& scanner = arguments.scanner;
+  scanner.sensor = sensorModel(arguments.sensor);
   parseSize(arguments.size, scanner.width, scanner.height);
   scanner.tilt_rad = arguments.tilt_deg * 3.14159265358979323846 / 180.0;
   scanner.seed = arguments.seed;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <numeric>
 #include <utility>
 
 #include "io/length_unit.h"
@@ -49,7 +50,22 @@ double depthScaleFor(double far_mm, double least) {
   }
 }
 
-int noiseLevel(const std::string& name) { return name == "none" ? 0 : name == "sensor" ? 1 : 2; }
+/// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts first;
+/// in the order in which they fell.
+std::vector<PlacedPart> partsLeft(const std::vector<PlacedPart>& parts, int image, int images) {
+  std::vector<std::size_t> order(parts.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return parts[a].world_from_object.translation_mm.z < parts[b].world_from_object.translation_mm.z;
+  });
+  const auto whole = static_cast<int>(parts.size());
+  const int left = std::max(1, whole * (images - image) / images);
+  order.resize(static_cast<std::size_t>(left));
+  std::sort(order.begin(), order.end());
+  std::vector<PlacedPart> result;
+  for (const std::size_t index : order) result.push_back(parts[index]);
+  return result;
+}
 
 }  // namespace
 
@@ -109,15 +125,24 @@ void BinSimulator::makeBin(int bin, const std::atomic<bool>& stop) {
   if (stop) return;
   ScannerOptions scanner = arguments_.scanner;
   scanner.seed = derivedSeed(arguments_.seed, number, 2);
-  scanner.noise = noiseLevel(arguments_.noise);
+  scanner.sensor = sensorModel(arguments_.sensor);
   if (scanner.distance_mm == 0.0) scanner.distance_mm = distanceFor(dropped.bin, scanner);
   const double far_mm = 1.5 * (scanner.distance_mm + glm::length(dropped.bin.inner_mm));
-  scanner.depth_scale = depthScaleFor(far_mm, scanner.noise == 0 ? 1e-3 : 0.1);
-  write(bin + 1, dropped, scanBin(meshes_, dropped.parts, dropped.bin, scanner));
+  const bool exact = scanner.sensor.kind == SensorKind::kNone;
+  scanner.depth_scale = depthScaleFor(far_mm, exact ? 1e-3 : scanner.sensor.depth_scale);
+  std::vector<BopView> views;
+  for (int image = 0; image < arguments_.images; ++image) {
+    if (stop) return;
+    const std::vector<PlacedPart> left = partsLeft(dropped.parts, image, arguments_.images);
+    views.push_back(viewOf(image, dropped, scanBin(meshes_, left, dropped.bin, scanner)));
+    ++scanner.seed;
+  }
+  write(bin + 1, views);
 }
 
-void BinSimulator::write(int scene_id, const DroppedBin& dropped, const Scan& scan) {
+BopView BinSimulator::viewOf(int im_id, const DroppedBin& dropped, const Scan& scan) const {
   BopView view;
+  view.im_id = im_id;
   view.image = scan.image;
   view.camera_from_world = scan.camera_from_world;
   view.bin = binBox(dropped.bin, scan.camera_from_world);
@@ -131,9 +156,18 @@ void BinSimulator::write(int scene_id, const DroppedBin& dropped, const Scan& sc
                           part.all_box,
                           part.visible_box});
   }
-  writeBopScene(out_ / "test" / fmt::format("{:06}", scene_id), {view});
+  return view;
+}
+
+void BinSimulator::write(int scene_id, const std::vector<BopView>& views) {
+  writeBopScene(out_ / "test" / fmt::format("{:06}", scene_id), views);
+  std::vector<BopTarget> targets;
+  for (const BopView& view : views) {
+    const std::vector<BopTarget> more = targetsOf(scene_id, view);
+    targets.insert(targets.end(), more.begin(), more.end());
+  }
   const std::lock_guard<std::mutex> lock(mutex_);
-  scenes_.push_back({scene_id, scan.image.camera, targetsOf(scene_id, view)});
+  scenes_.push_back({scene_id, views.front().image.camera, std::move(targets)});
 }
 
 void BinSimulator::finish() {

@@ -24,9 +24,10 @@ struct SimulateArguments {
   std::uint64_t seed = 1;  ///< same seed, same files
   bool mixed = false;      ///< all models in each bin; else one model a bin in turn
   std::string unit = "mm";
-  std::string size = "640x480";
-  std::string noise = "sensor";  ///< or none, rough
-  std::string bin_size;          ///< "300x200x100" [mm]; empty: as the parts need it
+  std::string size;                         ///< "640x480" [px]; empty: as the sensor has it
+  std::string sensor = "structured-light";  ///< of sensorNames()
+  std::string bin_size;  ///< "300x200x100" [mm]; empty: as the parts need it
+  int images = 1;        ///< of each bin, which is emptied from the top meanwhile
   double tilt_deg = 15.0;
   ScannerOptions scanner;
   DropOptions drop;
@@ -57,7 +58,8 @@ class BinSimulator {
   };
 
   void describe(const PhysicsPart& part, const Symmetries& symmetries) const;
-  void write(int scene_id, const DroppedBin& dropped, const Scan& scan);
+  BopView viewOf(int im_id, const DroppedBin& dropped, const Scan& scan) const;
+  void write(int scene_id, const std::vector<BopView>& views);
 
   const SimulateArguments& arguments_;
   const std::filesystem::path out_;

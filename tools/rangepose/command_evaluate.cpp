@@ -38,6 +38,10 @@ struct EvaluateArguments {
 
 void checkPaperUsage(EvaluatePaperArguments& paper, const std::string& out) {
   paper.scan.orthographic = paper.camera == "orthographic";
+  paper.scan.sensor = sensorModel(paper.sensor);
+  if (paper.scan.orthographic && needsPinhole(paper.scan.sensor)) {
+    throw UsageError("--sensor " + paper.sensor + " needs --camera perspective");
+  }
   if (paper.contact_sheet && out.empty()) throw UsageError("--contact-sheet needs --out DIR");
 }
 
@@ -114,8 +118,9 @@ void declarePaperScan(CLI::App& command, EvaluatePaperArguments& paper) {
       ->capture_default_str();
   command
       .add_option(
-          "--noise", paper.scan.noise, "Of the scan: 0 none, 1 structured light, 2 a rough sensor")
-      ->check(CLI::Range(0, 2))
+          "--sensor", paper.sensor, "What takes the scans; matching sensors and time of flight need --camera perspective")
+      ->check(CLI::IsMember(sensorNames()))
+      ->option_text("NAME")
       ->capture_default_str();
   command.add_option("--path", paper.path, "What searches")
       ->check(CLI::IsMember({"auto", "host", "glsl", "cuda"}))

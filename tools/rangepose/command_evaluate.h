@@ -27,6 +27,7 @@ struct EvaluatePaperArguments {
   std::vector<int> views = {1024, 2048};
   std::uint64_t seed = 1000;
   std::string camera = "orthographic";
+  std::string sensor = "none";
   BinScanOptions scan;
   EstimateOptions estimate;
   std::string path = "host";

@@ -212,7 +212,7 @@ int evaluatePaper(const EvaluatePaperArguments& arguments, const std::string& ou
       arguments.bins,
       arguments.seed,
       arguments.camera,
-      arguments.scan.noise > 0 ? fmt::format(" with noise {}", arguments.scan.noise) : "",
+      arguments.sensor == "none" ? "" : " by " + arguments.sensor,
       arguments.estimate.starts,
       arguments.path);
   markdown += evaluation.notes() + paperMarkdown(runs);

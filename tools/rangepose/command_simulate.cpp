@@ -27,9 +27,10 @@ namespace fs = std::filesystem;
 
 constexpr const char* kExamples = R"(Examples:
   rangepose simulate models/elbow.ply -o bins
-  rangepose simulate a.stl b.stl -o bins --mixed --bins 20 --count 40 --noise rough
-  rangepose simulate part.obj -o bins --unit m --orthographic --noise none
-Writes the BOP layout: DIR/models, DIR/test/NNNNNN (one bin and one image a scene) with poses,
+  rangepose simulate a.stl b.stl -o bins --mixed --bins 20 --count 40 --sensor rough
+  rangepose simulate part.obj -o bins --unit m --orthographic --sensor none
+  rangepose simulate part.stl -o bins --sensor realsense-d435 --camera-distance 600 --emptying 5
+Writes the BOP layout: DIR/models, DIR/test/NNNNNN (one bin a scene) with poses,
 visible fractions and the bin, and DIR/test_targets_bop19.json. The same seed gives the same files,
 whatever the number of threads. When interrupted, the bins that are there are whole.)";
 
@@ -98,9 +99,11 @@ void checkFolder(const fs::path& out) {
 int simulate(SimulateArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   setThreadCount(arguments.threads);
-  const std::vector<int> pixels = sizesIn<int>(arguments.size, 2);
-  arguments.scanner.width = pixels.at(0);
-  arguments.scanner.height = pixels.at(1);
+  if (!arguments.size.empty()) {
+    const std::vector<int> pixels = sizesIn<int>(arguments.size, 2);
+    arguments.scanner.width = pixels.at(0);
+    arguments.scanner.height = pixels.at(1);
+  }
   arguments.scanner.tilt_rad = arguments.tilt_deg * 3.14159265358979323846 / 180.0;
   if (!arguments.bin_size.empty()) {
     const std::vector<double> sides = sizesIn<double>(arguments.bin_size, 3);
@@ -138,11 +141,26 @@ int simulate(SimulateArguments& arguments) {
   return kDone;
 }
 
+/// All sensors, what each is in a few words.
+std::string sensorHelp() {
+  std::string text = "What takes the images:";
+  for (const std::string& name : sensorNames()) {
+    text += fmt::format("\n{} ({})", name, sensorSummary(name));
+  }
+  return text;
+}
+
 void declareBins(CLI::App& command, SimulateArguments& arguments) {
   command.add_option("--bins", arguments.bins, "Bins to make, a scene each")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   command.add_option("--count", arguments.count, "Parts in each bin")
+      ->check(CLI::Range(1, 500))
+      ->capture_default_str();
+  command
+      .add_option("--emptying",
+                  arguments.images,
+                  "Of each bin, which is emptied from the top meanwhile, the same number at a time")
       ->check(CLI::Range(1, 500))
       ->capture_default_str();
   command.add_option("--seed", arguments.seed, "Same seed, same files")->capture_default_str();
@@ -157,20 +175,19 @@ void declareBins(CLI::App& command, SimulateArguments& arguments) {
 
 void declareScanner(CLI::App& command, SimulateArguments& arguments) {
   command
-      .add_option("--noise",
-                  arguments.noise,
-                  "none, sensor (a good structured-light scanner), rough (1 mm at 1 m, holes)")
-      ->check(CLI::IsMember({"none", "sensor", "rough"}))
+      .add_option("--sensor", arguments.sensor, sensorHelp())
+      ->check(CLI::IsMember(sensorNames()))
+      ->option_text("NAME")
       ->capture_default_str();
   command.add_flag(
       "--orthographic", arguments.scanner.orthographic, "Parallel rays; no projector's shadow");
-  command.add_option("--size", arguments.size, "Of the image [px]")
+  command.add_option("--size", arguments.size, "Of the image [px]; else that of the sensor")
       ->check(checkImageSize)
-      ->capture_default_str();
+      ->option_text("WIDTHxHEIGHT");
   command
       .add_option("--camera-distance",
                   arguments.scanner.distance_mm,
-                  "To the middle of the bin [mm]; 0: all of the bin is in the image")
+                  "To the middle of the bin [mm]; 0: as near as the sensor allows with all of the bin in the image")
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
   command.add_option("--tilt", arguments.tilt_deg, "Of the view from straight down [degrees]")

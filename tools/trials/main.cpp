@@ -36,7 +36,7 @@ struct TrialOptions {
   int views = 1024;
   int trials = 25;
   std::uint64_t seed = 3000;
-  int noise = 1;
+  std::string sensor = "structured-light";
   double hidden = 0.0;
 };
 
@@ -83,7 +83,7 @@ Result runTrials(const Part& part,
   const ReferenceObject& object = part.database.objects.front();
   for (int i = 0; i < options.trials; ++i) {
     const test::PoseTrial trial = test::makePoseTrial(
-        object.mesh, options.seed + static_cast<std::uint64_t>(i), options.noise, options.hidden);
+        object.mesh, options.seed + static_cast<std::uint64_t>(i), options.sensor, options.hidden);
     EstimateTrace trace;
     const Estimate estimate =
         estimatePoses(trial.image, std::nullopt, part.database, estimate_options, stages, &trace);
@@ -142,10 +142,10 @@ void run(const TrialOptions& options, bool ablation) {
   const std::unique_ptr<StageSet> stages = makeHostStages();
   EstimateOptions estimate_options;
   estimate_options.min_score = 0.0;
-  fmt::print("{} views, seeds from {}, noise {}, {:.0f} % hidden\n\n",
+  fmt::print("{} views, seeds from {}, sensor {}, {:.0f} % hidden\n\n",
              options.views,
              options.seed,
-             options.noise,
+             options.sensor,
              100.0 * options.hidden);
   fmt::print(
       "| {} | trials | rough < 10 % [%] | refined < 2 % [%] | median error [% of diameter] | 90th "
@@ -180,7 +180,8 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   app.add_option("--seed", options.seed, "Of the first trial; the others follow")
       ->capture_default_str();
-  app.add_option("--noise", options.noise, "Of the sensor: 0 none, 1, 2")
+  app.add_option("--sensor", options.sensor, "What takes the images")
+      ->check(CLI::IsMember(rangepose::sensorNames()))
       ->check(CLI::Range(0, 2))
       ->capture_default_str();
   app.add_option("--hidden", options.hidden, "Share of the part that is hidden")

@@ -1,0 +1,88 @@
+#include "sim/matching.h"
+
+#include <cmath>
+#include <opencv2/calib3d.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+
+namespace rangepose {
+namespace {
+
+constexpr int kSpeckleRange = 1;  // disparities of a patch differ by less from pixel to pixel [px]
+
+cv::Ptr<cv::StereoSGBM> semiGlobal(const MatchingSensor& sensor) {
+  constexpr double kSmallStep = 8.0;   // penalties of OpenCV's own example, per pixel of a window
+  constexpr double kLargeStep = 32.0;  // likewise
+  const int area = sensor.window_px * sensor.window_px;
+  return cv::StereoSGBM::create(sensor.least_disparity_px,
+                                sensor.disparities,
+                                sensor.window_px,
+                                static_cast<int>(kSmallStep * sensor.smoothness * area),
+                                static_cast<int>(kLargeStep * sensor.smoothness * area),
+                                1,
+                                31,
+                                sensor.uniqueness_percent,
+                                sensor.speckle_px,
+                                kSpeckleRange,
+                                cv::StereoSGBM::MODE_SGBM_3WAY);
+}
+
+/// Contrast that does not depend on how well a surface is lit: the stored pattern has no shades.
+cv::Mat evenlyLit(const cv::Mat& image, int window_px) {
+  constexpr double kMiddle = 128.0;
+  constexpr double kContrast = 48.0;
+  constexpr double kLeastDeviation = 4.0;  // of grey values; less is noise
+  const cv::Size window(2 * window_px + 1, 2 * window_px + 1);
+  cv::Mat values;
+  image.convertTo(values, CV_32F);
+  cv::Mat mean;
+  cv::Mat mean_square;
+  cv::boxFilter(values, mean, CV_32F, window);
+  cv::boxFilter(values.mul(values), mean_square, CV_32F, window);
+  cv::Mat deviation;
+  cv::sqrt(cv::max(mean_square - mean.mul(mean), kLeastDeviation * kLeastDeviation), deviation);
+  cv::Mat result;
+  cv::Mat((values - mean) / deviation * kContrast + kMiddle).convertTo(result, CV_8U);
+  return result;
+}
+
+/// The same pixels, not copied; OpenCV only reads them.
+cv::Mat wrap(const Image<std::uint8_t>& image) {
+  return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.data())};
+}
+
+}  // namespace
+
+Image<float> matchedDisparity(const Image<std::uint8_t>& left,
+                              const Image<std::uint8_t>& right,
+                              const MatchingSensor& sensor,
+                              SensorKind kind) {
+  cv::Mat images[2] = {wrap(left), wrap(right)};
+  if (kind == SensorKind::kSpeckle) {
+    for (cv::Mat& image : images) image = evenlyLit(image, sensor.window_px);
+  }
+  // OpenCV leaves out what could reach beyond the left border; here it may look there.
+  const int beside_px = sensor.least_disparity_px + sensor.disparities;
+  for (cv::Mat& image : images) {
+    const int missing_px = left.width() + beside_px - image.cols;
+    cv::copyMakeBorder(image, image, 0, 0, missing_px, 0, cv::BORDER_CONSTANT);
+  }
+  cv::Mat found;
+  semiGlobal(sensor)->compute(images[0], images[1], found);
+  found = found.colRange(beside_px, found.cols);
+  Image<float> disparity(left.width(), left.height(), 0.0f);
+  constexpr int kScale = cv::StereoMatcher::DISP_SCALE;
+  const int least = sensor.least_disparity_px * kScale;
+  for (int v = 0; v < left.height(); ++v) {
+    const auto* const row = found.ptr<std::int16_t>(v);
+    for (int u = 0; u < left.width(); ++u) {
+      if (row[u] < least || row[u] <= 0) continue;
+      const double px = static_cast<double>(row[u]) / kScale;
+      disparity.at(u, v) =
+          static_cast<float>(std::round(px / sensor.disparity_step) * sensor.disparity_step);
+    }
+  }
+  return disparity;
+}
+
+}  // namespace rangepose
