@@ -19,7 +19,7 @@ cv::Ptr<cv::StereoSGBM> semiGlobal(const MatchingSensor& sensor) {
                                 sensor.window_px,
                                 static_cast<int>(kSmallStep * sensor.smoothness * area),
                                 static_cast<int>(kLargeStep * sensor.smoothness * area),
-                                1,
+                                sensor.agreement_px,
                                 31,
                                 sensor.uniqueness_percent,
                                 sensor.speckle_px,
@@ -27,22 +27,31 @@ cv::Ptr<cv::StereoSGBM> semiGlobal(const MatchingSensor& sensor) {
                                 cv::StereoSGBM::MODE_SGBM_3WAY);
 }
 
+/// Mean and deviation of grey values around each pixel.
+struct Contrast {
+  cv::Mat mean;
+  cv::Mat deviation;
+
+  Contrast(const cv::Mat& image, int width_px) {
+    const cv::Size window(width_px, width_px);
+    cv::Mat mean_square;
+    cv::boxFilter(image, mean, CV_32F, window);
+    cv::sqrBoxFilter(image, mean_square, CV_32F, window);
+    cv::sqrt(cv::max(mean_square - mean.mul(mean), 0.0), deviation);
+  }
+};
+
 /// Contrast that does not depend on how well a surface is lit: the stored pattern has no shades.
 cv::Mat evenlyLit(const cv::Mat& image, int window_px) {
   constexpr double kMiddle = 128.0;
   constexpr double kContrast = 48.0;
   constexpr double kLeastDeviation = 4.0;  // of grey values; less is noise
-  const cv::Size window(2 * window_px + 1, 2 * window_px + 1);
+  const Contrast around(image, 2 * window_px + 1);
   cv::Mat values;
   image.convertTo(values, CV_32F);
-  cv::Mat mean;
-  cv::Mat mean_square;
-  cv::boxFilter(values, mean, CV_32F, window);
-  cv::boxFilter(values.mul(values), mean_square, CV_32F, window);
-  cv::Mat deviation;
-  cv::sqrt(cv::max(mean_square - mean.mul(mean), kLeastDeviation * kLeastDeviation), deviation);
   cv::Mat result;
-  cv::Mat((values - mean) / deviation * kContrast + kMiddle).convertTo(result, CV_8U);
+  cv::Mat((values - around.mean) / cv::max(around.deviation, kLeastDeviation) * kContrast + kMiddle)
+      .convertTo(result, CV_8U);
   return result;
 }
 
@@ -58,6 +67,7 @@ Image<float> matchedDisparity(const Image<std::uint8_t>& left,
                               const MatchingSensor& sensor,
                               SensorKind kind) {
   cv::Mat images[2] = {wrap(left), wrap(right)};
+  const cv::Mat contrast = Contrast(images[0], sensor.window_px).deviation;
   if (kind == SensorKind::kSpeckle) {
     for (cv::Mat& image : images) image = evenlyLit(image, sensor.window_px);
   }
@@ -76,7 +86,9 @@ Image<float> matchedDisparity(const Image<std::uint8_t>& left,
   for (int v = 0; v < left.height(); ++v) {
     const auto* const row = found.ptr<std::int16_t>(v);
     for (int u = 0; u < left.width(); ++u) {
-      if (row[u] < least || row[u] <= 0) continue;
+      if (row[u] < least || row[u] <= 0 || contrast.at<float>(v, u) < sensor.least_contrast) {
+        continue;
+      }
       const double px = static_cast<double>(row[u]) / kScale;
       disparity.at(u, v) =
           static_cast<float>(std::round(px / sensor.disparity_step) * sensor.disparity_step);

@@ -65,6 +65,21 @@ Image<float> depthFrom(const Image<float>& disparity_px, const Camera& camera, d
   return depth_mm;
 }
 
+/// Smoothed over pixels that have a disparity; the others stay without one.
+Image<float> smoothed(const Image<float>& disparity_px, double deviation_px) {
+  if (deviation_px <= 0.0) return disparity_px;
+  Image<float> known(disparity_px.width(), disparity_px.height());
+  std::transform(disparity_px.begin(), disparity_px.end(), known.begin(), [](float disparity) {
+    return disparity > 0.0f ? 1.0f : 0.0f;
+  });
+  Image<float> result = blurred(disparity_px, deviation_px);
+  const Image<float> weight = blurred(known, deviation_px);
+  for (std::size_t i = 0; i < result.size(); ++i) {
+    result.data()[i] = known.data()[i] > 0.0f ? result.data()[i] / weight.data()[i] : 0.0f;
+  }
+  return result;
+}
+
 Image<float> senseByMatching(const CleanView& seen,
                              const RenderFrom& render,
                              const SensorModel& sensor,
@@ -88,8 +103,8 @@ Image<float> senseByMatching(const CleanView& seen,
   } else {
     second = storedPattern(dots, camera, matching);
   }
-  return depthFrom(
-      matchedDisparity(first, second, matching, sensor.kind), camera, sensor.baseline_mm);
+  const Image<float> disparity_px = matchedDisparity(first, second, matching, sensor.kind);
+  return depthFrom(smoothed(disparity_px, matching.smoothing_px), camera, sensor.baseline_mm);
 }
 
 }  // namespace

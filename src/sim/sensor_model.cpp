@@ -19,8 +19,9 @@ SensorModel ideal() {
   return model;
 }
 
-/// RealSense D435: f 422 px and baseline 50 mm as its calibration says at 848x480; disparity
-/// deviation 0.08 px in practice (librealsense, issue 3904).
+/// RealSense D435: f 422 px and baseline 50 mm at 848x480, depth in steps of 1 mm as delivered. What
+/// its images and its matching are like was chosen so that scans of pipe elbows have the statistics
+/// of real ones (docs/sensors.md).
 SensorModel realsenseD435() {
   SensorModel model;
   model.kind = SensorKind::kStereo;
@@ -28,8 +29,19 @@ SensorModel realsenseD435() {
   model.fx = model.fy = 422.0;
   model.baseline_mm = 50.0;
   model.nearest_mm = 280.0;
+  model.depth_scale = 1.0;
   model.matching.projector_mm = 30.0;
+  model.matching.dot_spacing_px = 6.0;
+  model.matching.dot_px = 1.0;
+  model.matching.blur_px = 0.7;
+  model.matching.ambient = 0.2;
+  model.matching.image_noise = 14.0;
+  model.matching.smoothness = 0.2;
+  model.matching.uniqueness_percent = 17;
+  model.matching.least_contrast = 40.0;
   model.matching.least_disparity_px = 8;
+  model.matching.speckle_px = 200;
+  model.matching.smoothing_px = 2.2;
   return model;
 }
 
@@ -43,8 +55,8 @@ SensorModel realsenseD415() {
   return model;
 }
 
-/// Kinect of 2010, PrimeSense: 9x9 windows, disparity in steps of 1/8 px, baseline 75 mm (Khoshelham
-/// and Elberink, Sensors 12:1437, 2012; ROS, kinect_calibration/technical).
+/// Kinect of 2010, PrimeSense: disparity in steps of 1/8 px, baseline 75 mm (Khoshelham and Elberink,
+/// Sensors 12:1437, 2012). The rest was chosen as that of the D435, on scans of blocks.
 SensorModel kinectV1() {
   SensorModel model;
   model.kind = SensorKind::kSpeckle;
@@ -57,7 +69,12 @@ SensorModel kinectV1() {
   model.matching.least_disparity_px = 16;
   model.matching.disparities = 112;
   model.matching.disparity_step = 0.125;
-  model.matching.smoothness = 0.25;
+  model.matching.window_px = 7;
+  model.matching.smoothness = 0.5;
+  model.matching.uniqueness_percent = 2;
+  model.matching.agreement_px = 2;
+  model.matching.speckle_px = 40;
+  model.matching.image_noise = 6.0;
   return model;
 }
 
