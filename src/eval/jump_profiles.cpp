@@ -21,7 +21,8 @@ constexpr int kOutsideToPx = 14;
 constexpr int kLeastNear = 3;     ///< of 7
 constexpr int kLeastOutside = 5;  ///< of 9
 constexpr int kLeastBetween = 11;  ///< of 13
-/// Between the quartiles of what is measured at the far level, as a share of the jump: no more.
+/// Between the quartiles of what is measured at the far level, and between its line's ends, as a
+/// share of the jump: no more.
 constexpr double kFarSpread = 0.25;
 
 constexpr double kSmearLow = 0.15;
@@ -139,21 +140,47 @@ class Profiler {
   bool findFar(JumpProfile& profile) const {
     const double behind = profile.near_mm.back() + kJumpMm;
     std::vector<double> outside;
-    std::vector<double> far;
+    std::vector<glm::dvec2> far;
     for (int place = 2; place <= kProfileOutsidePx; ++place) {
       const glm::ivec2 pixel = pixelAt(profile, place);
       const KnownPixel& known = known_.at(pixel.x, pixel.y);
       if (known.part >= 0 && known.depth_mm < behind) return false;
-      const double measured = profile.measured_mm[static_cast<std::size_t>(stepAt(place))];
+      const auto i = static_cast<std::size_t>(stepAt(place));
+      const double measured = profile.measured_mm[i];
       if (measured == 0.0) continue;
       if (place >= kOutsideFromPx && place <= kOutsideToPx) outside.push_back(measured);
-      if (place >= kFarLevelPx) far.push_back(measured);
+      if (place >= kFarLevelPx) far.emplace_back(profile.place_px[i], measured);
     }
     if (outside.size() < kLeastOutside || far.size() < kLeastOutside) return false;
-    profile.far_mm = quantile(far, 0.5);
-    if (quantile(outside, 0.5) < behind || profile.far_mm < behind) return false;
-    const double spread = quantile(far, 0.75) - quantile(far, 0.25);
-    return spread <= kFarSpread * (profile.far_mm - profile.near_mm.back());
+    return quantile(outside, 0.5) >= behind && layFar(far, profile);
+  }
+
+  /// False where what lies behind is nearer than it must be, or of several depths.
+  static bool layFar(const std::vector<glm::dvec2>& far, JumpProfile& profile) {
+    std::vector<double> places;
+    std::vector<double> depths;
+    std::vector<double> slopes;
+    for (std::size_t i = 0; i < far.size(); ++i) {
+      places.push_back(far[i].x);
+      depths.push_back(far[i].y);
+      for (std::size_t j = 0; j < i; ++j) {
+        const glm::dvec2 between = far[i] - far[j];
+        if (between.x > 1.0) slopes.push_back(between.y / between.x);
+      }
+    }
+    const double slope = quantile(slopes, 0.5);
+    const double level = quantile(depths, 0.5);
+    const double jump = level - profile.near_mm.back();
+    if (jump < kJumpMm || quantile(depths, 0.75) - quantile(depths, 0.25) > kFarSpread * jump) {
+      return false;
+    }
+    const double middle = quantile(places, 0.5);
+    const double most = kFarSpread * jump;
+    for (std::size_t i = 0; i < profile.far_mm.size(); ++i) {
+      const double along = std::max(0.0, profile.place_px[i]) - middle;
+      profile.far_mm[i] = level + std::clamp(slope * along, -most, most);
+    }
+    return true;
   }
 
   const DepthImage& image_;
@@ -194,7 +221,8 @@ void tallySmear(const JumpProfile& profile, JumpTally& tally) {
   if (!passing) return;
   ++tally.profiles;
   tally.smeared_px += smeared;
-  tally.passing_px.push_back(static_cast<float>(*passing));
+  tally.sides[static_cast<std::size_t>(profile.side())].passing_px.push_back(
+      static_cast<float>(*passing));
 }
 
 /// The longest run without depth of those that touch the contour's surroundings [px].
@@ -225,7 +253,7 @@ ContourSide JumpProfile::side() const {
 double JumpProfile::fraction(int step) const {
   const auto i = static_cast<std::size_t>(step);
   if (measured_mm[i] == 0.0f) return std::numeric_limits<double>::quiet_NaN();
-  return (measured_mm[i] - near_mm[i]) / (far_mm - near_mm[i]);
+  return (measured_mm[i] - near_mm[i]) / (far_mm[i] - near_mm[i]);
 }
 
 std::vector<JumpProfile> jumpProfiles(const DepthImage& image,
@@ -242,25 +270,33 @@ std::vector<JumpProfile> jumpProfiles(const DepthImage& image,
 }
 
 void JumpTally::add(const JumpTally& other) {
+  const auto append = [](std::vector<float>& all, const std::vector<float>& more) {
+    all.insert(all.end(), more.begin(), more.end());
+  };
   profiles += other.profiles;
   smeared_px += other.smeared_px;
-  passing_px.insert(passing_px.end(), other.passing_px.begin(), other.passing_px.end());
-  for (std::size_t side = 0; side < holes.size(); ++side) {
-    holes[side].profiles += other.holes[side].profiles;
-    holes[side].missing_px += other.holes[side].missing_px;
-    holes[side].wide += other.holes[side].wide;
+  for (std::size_t side = 0; side < sides.size(); ++side) {
+    sides[side].profiles += other.sides[side].profiles;
+    sides[side].hole_px += other.sides[side].hole_px;
+    sides[side].wide_holes += other.sides[side].wide_holes;
+    append(sides[side].passing_px, other.sides[side].passing_px);
   }
+  for (std::size_t i = 0; i < fractions.size(); ++i) append(fractions[i], other.fractions[i]);
 }
 
 JumpTally tallyJumps(const std::vector<JumpProfile>& profiles) {
   JumpTally tally;
   for (const JumpProfile& profile : profiles) {
     tallySmear(profile, tally);
-    HoleTally& holes = tally.holes[static_cast<std::size_t>(profile.side())];
+    SideTally& side = tally.sides[static_cast<std::size_t>(profile.side())];
     const int hole = holePx(profile);
-    ++holes.profiles;
-    holes.missing_px += hole;
-    holes.wide += hole >= kWideHolePx ? 1 : 0;
+    ++side.profiles;
+    side.hole_px += hole;
+    side.wide_holes += hole >= kWideHolePx ? 1 : 0;
+    for (std::size_t i = 0; i < kProfilePlacesPx.size(); ++i) {
+      const double fraction = profile.fraction(stepAt(kProfilePlacesPx[i]));
+      if (!std::isnan(fraction)) tally.fractions[i].push_back(static_cast<float>(fraction));
+    }
   }
   return tally;
 }

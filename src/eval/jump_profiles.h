@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "core/camera.h"
@@ -30,7 +31,9 @@ struct JumpProfile {
   /// Of the part: the known depth and what the data is off from it 6 to 12 px inside; outside, as
   /// at its rim.
   std::array<double, kProfileSteps> near_mm{};
-  double far_mm = 0.0;  ///< median of what is measured 8 to 16 px outside
+  /// Of what lies behind: the line through what is measured 8 to 16 px outside (medians of values
+  /// and slopes).
+  std::array<double, kProfileSteps> far_mm{};
 
   ContourSide side() const;
   /// Of the jump: 0 where the data is at the part, 1 at what lies behind; NaN where there is none.
@@ -43,17 +46,23 @@ std::vector<JumpProfile> jumpProfiles(const DepthImage& image,
                                       const KnownSurface& known,
                                       const std::vector<KnownPart>& parts);
 
-struct HoleTally {
+/// Where along the profiles depth itself is told [px].
+inline constexpr std::array<int, 9> kProfilePlacesPx = {-6, -4, -2, -1, 0, 1, 2, 4, 6};
+
+/// Of the profiles on one side of the parts.
+struct SideTally {
   long long profiles = 0;
-  long long missing_px = 0;  ///< the longest run of pixels without depth that is at the contour
-  long long wide = 0;        ///< profiles where that is 2 px or longer
+  long long hole_px = 0;          ///< the longest run of pixels without depth that is at the contour
+  long long wide_holes = 0;       ///< profiles where that is 2 px or longer
+  std::vector<float> passing_px;  ///< of profiles with few holes: where half of the jump is passed
 };
 
 struct JumpTally {
-  long long profiles = 0;         ///< of those, the ones that have few holes
-  long long smeared_px = 0;       ///< steps that are between 15 and 85 % of the jump
-  std::vector<float> passing_px;  ///< where half of the jump is passed, from the true contour
-  std::array<HoleTally, 4> holes;  ///< by ContourSide
+  long long profiles = 0;    ///< with few holes: the next is of these
+  long long smeared_px = 0;  ///< steps that are between 15 and 85 % of the jump
+  std::array<SideTally, 4> sides;  ///< by ContourSide
+  /// What JumpProfile::fraction() gives at each of kProfilePlacesPx, where there is depth.
+  std::array<std::vector<float>, kProfilePlacesPx.size()> fractions;
 
   void add(const JumpTally& other);
 };

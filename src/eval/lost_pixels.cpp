@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 
 namespace rangepose {
 namespace {
@@ -56,23 +55,37 @@ LostTally tallyLost(const DepthImage& image,
 }
 
 void DepthSteps::add(const DepthSteps& other) {
-  common_units = std::gcd(common_units, other.common_units);
-  unit_mm = std::max(unit_mm, other.unit_mm);
+  for (const auto& [depth_um, count] : other.counts) counts[depth_um] += count;
   gaps_mm.insert(gaps_mm.end(), other.gaps_mm.begin(), other.gaps_mm.end());
+}
+
+double DepthSteps::commonStepMm() const {
+  constexpr long long kLargestUm = 20000;
+  constexpr double kOthers = 0.05;
+  double all = 0.0;
+  for (const auto& [depth_um, count] : counts) all += static_cast<double>(count);
+  if (counts.empty()) return std::numeric_limits<double>::quiet_NaN();
+  for (long long step_um = kLargestUm; step_um > 1; --step_um) {
+    double others = 0.0;
+    for (const auto& [depth_um, count] : counts) {
+      if (depth_um % step_um != 0) others += static_cast<double>(count);
+      if (others > kOthers * all) break;
+    }
+    if (others <= kOthers * all) return 1e-3 * static_cast<double>(step_um);
+  }
+  return 1e-3;
 }
 
 DepthSteps depthSteps(const DepthImage& image,
                       const KnownSurface& known,
                       const std::vector<KnownPart>& parts) {
   DepthSteps steps;
-  steps.unit_mm = image.camera.depth_scale;
   std::vector<float> values;
   for (int v = 0; v < known.height(); ++v) {
     for (int u = 0; u < known.width(); ++u) {
       const float measured = image.depth_mm.at(u, v);
       if (measured == 0.0f) continue;
-      steps.common_units =
-          std::gcd(steps.common_units, std::llround(measured / image.camera.depth_scale));
+      ++steps.counts[std::llround(1000.0 * measured)];
       const KnownPixel& pixel = known.at(u, v);
       if (!pixel.inner || !isCounted(pixel, parts)) continue;
       const double off = std::abs(measured - pixel.depth_mm) * pixel.cosine;

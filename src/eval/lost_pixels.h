@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <vector>
 
 #include "core/camera.h"
@@ -20,8 +21,9 @@ struct LostShare {
 
 /// Pixels of counted parts that no nearer measurement hides.
 struct LostTally {
-  std::array<LostShare, 6> by_slant;  ///< inner ones, by the angle between normal and ray: 15 degrees each
-  LostShare silhouettes;              ///< all of them
+  /// Inner ones, by the angle between normal and ray, 15 degrees each.
+  std::array<LostShare, 6> by_slant;
+  LostShare silhouettes;  ///< all of them
 
   void add(const LostTally& other);
 };
@@ -30,15 +32,15 @@ LostTally tallyLost(const DepthImage& image,
                     const KnownSurface& known,
                     const std::vector<KnownPart>& parts);
 
-/// Of the depth values of an image.
+/// Of the depth values of images.
 struct DepthSteps {
-  /// Every value of the image is a multiple of so many stored units (scale of the camera); 0
-  /// without values.
-  long long common_units = 0;
-  double unit_mm = 0.0;
-  std::vector<float> gaps_mm;  ///< between neighbours among the values that occur on counted parts
+  std::map<long long, long long> counts;  ///< by depth [um]
+  std::vector<float> gaps_mm;  ///< between neighbours among the values of an image on counted parts
 
   void add(const DepthSteps& other);
+  /// The largest step of which all but few depth values are multiples, up to 20 mm; 0.001 mm where
+  /// there is none, NaN without values.
+  double commonStepMm() const;
 };
 
 DepthSteps depthSteps(const DepthImage& image,

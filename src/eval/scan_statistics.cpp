@@ -36,14 +36,25 @@ void fillErrors(const SurfaceErrorTally& tally, ScanStatistics& figures) {
 void fillJumps(const JumpTally& tally, ScanStatistics& figures) {
   figures.profiles = tally.profiles;
   figures.smear_px = ratio(static_cast<double>(tally.smeared_px), tally.profiles);
-  std::vector<float> passing = tally.passing_px;
+  std::vector<float> passing;
+  long long all = 0;
+  for (std::size_t i = 0; i < tally.sides.size(); ++i) {
+    const SideTally& side = tally.sides[i];
+    std::vector<float> own = side.passing_px;
+    passing.insert(passing.end(), own.begin(), own.end());
+    all += side.profiles;
+    figures.sides[i] = {side.profiles,
+                        quantile(own, 0.5),
+                        ratio(static_cast<double>(side.hole_px), side.profiles),
+                        ratio(static_cast<double>(side.wide_holes), side.profiles)};
+  }
   figures.passing_px = quantile(passing, 0.5);
   figures.passing_spread_px = 0.5 * (quantile(passing, 0.84) - quantile(passing, 0.16));
-  for (std::size_t side = 0; side < tally.holes.size(); ++side) {
-    const HoleTally& holes = tally.holes[side];
-    figures.holes[side] = {holes.profiles,
-                           ratio(static_cast<double>(holes.missing_px), holes.profiles),
-                           ratio(static_cast<double>(holes.wide), holes.profiles)};
+  for (std::size_t i = 0; i < tally.fractions.size(); ++i) {
+    std::vector<float> fractions = tally.fractions[i];
+    const auto measured = static_cast<double>(fractions.size());
+    figures.places[i] = {quantile(fractions, 0.5),
+                         ratio(static_cast<double>(all) - measured, all)};
   }
 }
 
@@ -81,8 +92,7 @@ ScanStatistics statisticsOf(const ScanTally& tally) {
     figures.lost_by_slant[i] = tally.lost.by_slant[i].share();
   }
   figures.lost_share = tally.lost.silhouettes.share();
-  const long long units = tally.steps.common_units;
-  figures.common_step_mm = units > 0 ? static_cast<double>(units) * tally.steps.unit_mm : kNan;
+  figures.common_step_mm = tally.steps.commonStepMm();
   std::vector<float> gaps = tally.steps.gaps_mm;
   figures.gap_mm = quantile(gaps, 0.5);
   return figures;

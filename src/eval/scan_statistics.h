@@ -29,11 +29,18 @@ struct ScanTally {
 
 ScanTally tallyScan(const DepthImage& image, const std::vector<KnownPart>& parts);
 
-/// Of holes at jumps of depth.
-struct HoleFigures {
+/// Of the profiles across jumps of depth on one side of the parts.
+struct JumpSideFigures {
   long long profiles = 0;
-  double width_px = 0.0;    ///< mean run of pixels without depth at the contour
+  double passing_px = 0.0;  ///< as ScanStatistics::passing_px
+  double hole_px = 0.0;     ///< mean run of pixels without depth at the contour
   double wide_share = 0.0;  ///< of profiles with a run of 2 px or more, 0..1
+};
+
+/// Of the profiles at one place along them.
+struct JumpPlaceFigures {
+  double depth = 0.0;  ///< median, from 0 at the part to 1 at what lies behind, where measured
+  double lost = 0.0;   ///< share without depth, 0..1
 };
 
 /// The figures of a data set; NaN where nothing was there to measure.
@@ -46,7 +53,7 @@ struct ScanStatistics {
   /// Deviation of the noise between neighbouring pixels, from second differences of e [mm]: see
   /// noiseBetweenNeighbours().
   double noise_mm = 0.0;
-  double common_step_mm = 0.0;  ///< all depth values are multiples of it
+  double common_step_mm = 0.0;  ///< 95 % of all depth values are multiples of it
   double gap_mm = 0.0;          ///< median gap between neighbours among the values that occur
 
   /// e is measured minus known depth, less the small motion of the part that explains most of it.
@@ -58,14 +65,14 @@ struct ScanStatistics {
   /// 1 - D(L)^2 / variance, where the variance is that of the pairs' pixels; -1..1.
   std::array<double, kErrorShiftsPx.size()> correlation{};
 
-  /// Profiles across jumps of depth without large holes.
-  long long profiles = 0;
+  long long profiles = 0;   ///< across jumps of depth, without large holes; the next are of these
   double smear_px = 0.0;    ///< mean number of steps between 15 and 85 % of the jump
   double passing_px = 0.0;  ///< median place of half the jump; positive: the part looks larger
   double passing_spread_px = 0.0;  ///< half of what lies between 16 and 84 % of these places
 
-  /// By ContourSide, of all profiles.
-  std::array<HoleFigures, 4> holes;
+  std::array<JumpSideFigures, 4> sides;  ///< by ContourSide, of all profiles
+  /// Of all profiles, at each of kProfilePlacesPx from the true contour.
+  std::array<JumpPlaceFigures, kProfilePlacesPx.size()> places;
 
   /// Of inner pixels that are not hidden, those without depth, by slant in steps of 15 deg; 0..1.
   std::array<double, 6> lost_by_slant{};

@@ -39,16 +39,24 @@ void addJumpRows(const ScanStatistics& set, std::vector<Row>& rows) {
   rows.push_back({"jumps: smeared over [px]", set.smear_px, 2});
   rows.push_back({"jumps: half passed at, median [px]", set.passing_px, 2});
   rows.push_back({"jumps: half passed at, spread [px]", set.passing_spread_px, 2});
-  constexpr const char* kSides[] = {"left", "right", "top", "bottom"};
-  for (std::size_t side = 0; side < set.holes.size(); ++side) {
-    const HoleFigures& holes = set.holes[side];
-    rows.push_back({fmt::format("jumps, {}: profiles", kSides[side]),
-                    static_cast<double>(holes.profiles),
+  for (std::size_t i = 0; i < kProfilePlacesPx.size(); ++i) {
+    rows.push_back({fmt::format("jumps: depth {} px outside [% of the jump]", kProfilePlacesPx[i]),
+                    kPercent * set.places[i].depth,
                     0});
-    rows.push_back({fmt::format("jumps, {}: hole [px]", kSides[side]), holes.width_px, 2});
-    rows.push_back({fmt::format("jumps, {}: hole of 2 px or more [%]", kSides[side]),
-                    kPercent * holes.wide_share,
+  }
+  for (std::size_t i = 0; i < kProfilePlacesPx.size(); ++i) {
+    rows.push_back({fmt::format("jumps: lost {} px outside [%]", kProfilePlacesPx[i]),
+                    kPercent * set.places[i].lost,
                     1});
+  }
+  constexpr const char* kSides[] = {"left", "right", "top", "bottom"};
+  for (std::size_t i = 0; i < set.sides.size(); ++i) {
+    const JumpSideFigures& side = set.sides[i];
+    const std::string name = fmt::format("jumps, {}: ", kSides[i]);
+    rows.push_back({name + "profiles", static_cast<double>(side.profiles), 0});
+    rows.push_back({name + "half passed at, median [px]", side.passing_px, 2});
+    rows.push_back({name + "hole [px]", side.hole_px, 2});
+    rows.push_back({name + "hole of 2 px or more [%]", kPercent * side.wide_share, 1});
   }
 }
 
