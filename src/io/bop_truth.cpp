@@ -70,14 +70,18 @@ void addVisibility(const fs::path& path, std::map<int, std::vector<BopTruth>>& i
 
 }  // namespace
 
-std::map<int, std::vector<BopTruth>> readBopTruth(const fs::path& scene_folder) {
-  const fs::path path = scene_folder / "scene_gt.json";
+std::map<int, std::vector<BopTruth>> readBopTruthFile(const fs::path& path) {
   std::map<int, std::vector<BopTruth>> images;
   const json entries = readJsonFile(path, "truth");
   for (const auto& [key, entry] : entries.items()) {
     images[imageId(key, path)] =
         truthsOf(entry, fmt::format("truth {}: image {}", path.string(), key));
   }
+  return images;
+}
+
+std::map<int, std::vector<BopTruth>> readBopTruth(const fs::path& scene_folder) {
+  std::map<int, std::vector<BopTruth>> images = readBopTruthFile(scene_folder / "scene_gt.json");
   const fs::path info_path = scene_folder / "scene_gt_info.json";
   std::error_code failure;
   if (fs::exists(info_path, failure)) addVisibility(info_path, images);

@@ -20,4 +20,8 @@ struct BopTruth {
 /// scene_gt_info.json does not fit it; the latter may be missing.
 std::map<int, std::vector<BopTruth>> readBopTruth(const std::filesystem::path& scene_folder);
 
+/// One file in the format of scene_gt.json; visible fractions are not known. Throws Error when it
+/// is missing or damaged.
+std::map<int, std::vector<BopTruth>> readBopTruthFile(const std::filesystem::path& path);
+
 }  // namespace rangepose

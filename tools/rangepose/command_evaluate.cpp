@@ -20,6 +20,8 @@ average precision, and the scores of the BOP challenge. With --paper virtual bin
 bolts and elbows are emptied one by one, and the tables of the paper are printed with its figures
 beside ours; the models are t_pipe.ply, bolt.ply and elbow.ply of the folder. Each part is a
 trial: the one nearest to the pose is taken out, right or wrong; the others stay where they are.
+With --scans depth images are measured where the poses of parts are known: noise, error, what becomes
+of jumps of depth, and lost pixels, a column a data set; so real scans and simulated ones compare.
 
 Examples:
   rangepose evaluate --bop bins --csv results.csv
@@ -27,11 +29,13 @@ Examples:
   rangepose evaluate --paper models --out report
   rangepose evaluate --paper models --sampling adaptive --sizes 64 --views 1024 --contact-sheet \
       --out report
-  rangepose evaluate --paper models --sampling adaptive --sizes 64 --views 1024 --ablation)";
+  rangepose evaluate --paper models --sampling adaptive --sizes 64 --views 1024 --ablation
+  rangepose evaluate --scans bins --scans real --truth - --truth real/poses.json)";
 
 struct EvaluateArguments {
   EvaluateBopArguments bop;
   EvaluatePaperArguments paper;
+  EvaluateScansArguments scans;
   std::string out;
   int threads = 0;
 };
@@ -46,12 +50,18 @@ void checkPaperUsage(EvaluatePaperArguments& paper, const std::string& out) {
 }
 
 void checkUsage(EvaluateArguments& arguments) {
-  if (arguments.bop.folder.empty() == arguments.paper.models.empty()) {
-    throw UsageError(arguments.bop.folder.empty()
-                         ? "nothing to evaluate; give --bop DIR or --paper MODELS_DIR"
-                         : "give either --bop or --paper, not both");
+  checkScansUsage(arguments.scans);
+  const int uses = (arguments.bop.folder.empty() ? 0 : 1) +
+                   (arguments.paper.models.empty() ? 0 : 1) +
+                   (arguments.scans.folders.empty() ? 0 : 1);
+  if (uses != 1) {
+    throw UsageError(
+        uses == 0 ? "nothing to evaluate; give --bop DIR, --paper MODELS_DIR or --scans DIR"
+                  : "give one of --bop, --paper and --scans, not more");
   }
-  if (!arguments.paper.models.empty()) {
+  if (!arguments.scans.folders.empty()) {
+    arguments.scans.split = arguments.bop.split;
+  } else if (!arguments.paper.models.empty()) {
     checkPaperUsage(arguments.paper, arguments.out);
   } else if (arguments.bop.csv.empty()) {
     throw UsageError("--bop needs a result file; give --csv FILE");
@@ -62,6 +72,7 @@ int evaluate(EvaluateArguments& arguments) {
   checkUsage(arguments);
   setThreadCount(arguments.threads);
   makeOutputFolder(arguments.out);
+  if (!arguments.scans.folders.empty()) return evaluateScans(arguments.scans, arguments.out);
   return arguments.paper.models.empty() ? evaluateBop(arguments.bop, arguments.out)
                                         : evaluatePaper(arguments.paper, arguments.out);
 }
@@ -78,6 +89,18 @@ void declareBop(CLI::App& command, EvaluateBopArguments& bop) {
                   "Parts less visible than this share need not be found")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
+}
+
+void declareScans(CLI::App& command, EvaluateScansArguments& scans) {
+  command
+      .add_option(
+          "--scans", scans.folders, "Data set in the BOP layout whose sensor is measured; several")
+      ->option_text("DIR");
+  command
+      .add_option("--truth",
+                  scans.truths,
+                  "Poses for --scans, like scene_gt.json; as many, - where a set has its own")
+      ->option_text("FILE");
 }
 
 void declarePaper(CLI::App& command, EvaluatePaperArguments& paper) {
@@ -153,6 +176,7 @@ std::function<int()> declareEvaluate(CLI::App& command) {
   const auto arguments = std::make_shared<EvaluateArguments>();
   command.footer(kExamples);
   declareBop(command, arguments->bop);
+  declareScans(command, arguments->scans);
   declarePaper(command, arguments->paper);
   declarePaperScan(command, arguments->paper);
   command

@@ -1,4 +1,4 @@
-// `rangepose evaluate`: what its two uses share.
+// `rangepose evaluate`: what its three uses share.
 #pragma once
 
 #include <cstdint>
@@ -36,11 +36,23 @@ struct EvaluatePaperArguments {
   bool ablation = false;
 };
 
+struct EvaluateScansArguments {
+  std::vector<std::string> folders;
+  std::vector<std::string> truths;  ///< none, or one for each folder; "-" is the folder's own
+  std::string split = "test";
+};
+
 /// A result file against the truth of a data set. Returns the exit code.
 int evaluateBop(const EvaluateBopArguments& arguments, const std::string& out);
 
 /// The paper's experiment. Returns the exit code.
 int evaluatePaper(const EvaluatePaperArguments& arguments, const std::string& out);
+
+/// Throws UsageError.
+void checkScansUsage(const EvaluateScansArguments& arguments);
+
+/// What the sensor did to surfaces of known pose. Returns the exit code.
+int evaluateScans(const EvaluateScansArguments& arguments, const std::string& out);
 
 /// Makes the folder for tables and pictures where it does not exist; throws Error where it cannot
 /// be made or written to. Does nothing for an empty name.
