@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kLongestInset = 1.5;  ///< of the radius, in acute corners of a face
 constexpr double kKept = 0.4;          ///< share of an area or a length that must be left
+constexpr double kThin = 0.1;          ///< of the radius: what is thinner isn't seen
 constexpr double kTurnedCos = 0.8;     ///< a triangle may turn by 37 degrees
 constexpr double kTaper = 0.5;         ///< change of the radius along a ridge, of the length
 constexpr double kLess = 0.75;         ///< a radius that is too large becomes so much of it
@@ -96,27 +97,45 @@ void connect(const EdgeGraph& graph, BevelFans& fans) {
   }
 }
 
-/// Whether a triangle keeps its side and enough of its area.
-bool triangleIsSound(const EdgeGraph& graph, const BevelFans& fans, std::uint32_t triangle) {
+/// Of the triangle over its longest side.
+double height(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const double longest = std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
+  return longest > 0.0 ? glm::length(glm::cross(b - a, c - a)) / longest : 0.0;
+}
+
+/// Whether a triangle keeps its side and enough of its area, or is too thin to be seen before and
+/// after.
+bool triangleIsSound(const EdgeGraph& graph,
+                     const BevelFans& fans,
+                     std::uint32_t triangle,
+                     double thin_mm) {
   const std::uint32_t corner = 3 * triangle;
   const glm::dvec3 a = fans.moved(graph, corner);
   const glm::dvec3 b = fans.moved(graph, corner + 1);
   const glm::dvec3 c = fans.moved(graph, corner + 2);
-  const glm::dvec3 before = graph.cross(triangle);
+  const double before = glm::length(graph.cross(triangle));
   const glm::dvec3 now = glm::cross(b - a, c - a);
   const double facing = glm::dot(now, graph.normals[triangle]);
-  // Of a needle only that it stays one matters.
-  if (graph.needle[triangle] != 0) return facing >= -2.0 * glm::length(before);
-  return facing >= kKept * glm::length(before) && facing >= kTurnedCos * glm::length(now);
+  const bool needle = graph.needle[triangle] != 0;
+  if (needle && facing >= -2.0 * before) return true;
+  if (!needle && facing >= kKept * before && facing >= kTurnedCos * glm::length(now)) return true;
+  const glm::uvec3& corners = graph.triangles[triangle];
+  return height(a, b, c) <= thin_mm &&
+         height(graph.vertices[corners.x], graph.vertices[corners.y], graph.vertices[corners.z]) <=
+             thin_mm;
 }
 
-bool edgeIsSound(const EdgeGraph& graph, const BevelFans& fans, const GraphEdge& edge) {
+bool edgeIsSound(const EdgeGraph& graph,
+                 const BevelFans& fans,
+                 const GraphEdge& edge,
+                 double thin_mm) {
   const glm::dvec3 before = graph.vertices[edge.to] - graph.vertices[edge.from];
   const glm::dvec3 left = fans.moved(graph, nextCorner(edge.left)) - fans.moved(graph, edge.left);
   const glm::dvec3 right =
       fans.moved(graph, edge.right) - fans.moved(graph, nextCorner(edge.right));
-  return std::min(glm::dot(left, before), glm::dot(right, before)) >=
-         kKept * glm::dot(before, before);
+  const double kept = std::min(glm::dot(left, before), glm::dot(right, before));
+  if (kept >= kKept * glm::dot(before, before)) return true;
+  return std::max({glm::length(before), glm::length(left), glm::length(right)}) <= thin_mm;
 }
 
 /// Makes the radius change gently along ridges, forth and back.
@@ -135,14 +154,14 @@ void taper(const EdgeGraph& graph, std::vector<double>& radius_mm) {
 }
 
 /// Vertices of triangles and edges that suffer too much.
-std::vector<char> tooFar(const EdgeGraph& graph, const BevelFans& fans) {
+std::vector<char> tooFar(const EdgeGraph& graph, const BevelFans& fans, double thin_mm) {
   std::vector<char> too_far(graph.vertices.size(), 0);
   for (std::uint32_t t = 0; t < graph.triangles.size(); ++t) {
-    if (triangleIsSound(graph, fans, t)) continue;
+    if (triangleIsSound(graph, fans, t, thin_mm)) continue;
     for (int k = 0; k < 3; ++k) too_far[graph.triangles[t][k]] = 1;
   }
   for (const GraphEdge& edge : graph.edges) {
-    if (!edge.ridge || edgeIsSound(graph, fans, edge)) continue;
+    if (!edge.ridge || edgeIsSound(graph, fans, edge, thin_mm)) continue;
     too_far[edge.from] = 1;
     too_far[edge.to] = 1;
   }
@@ -151,10 +170,10 @@ std::vector<char> tooFar(const EdgeGraph& graph, const BevelFans& fans) {
 
 /// Ends: each pass past kPasses that finds something lets vertices stay for good, and a triangle or
 /// an edge whose vertices all stay is sound.
-void shrinkRadii(const EdgeGraph& graph, BevelFans& fans) {
+void shrinkRadii(const EdgeGraph& graph, BevelFans& fans, double thin_mm) {
   for (int pass = 0;; ++pass) {
     taper(graph, fans.radius_mm);
-    const std::vector<char> too_far = tooFar(graph, fans);
+    const std::vector<char> too_far = tooFar(graph, fans, thin_mm);
     bool any = false;
     for (std::size_t v = 0; v < too_far.size(); ++v) {
       if (too_far[v] == 0 || fans.radius_mm[v] == 0.0) continue;
@@ -179,7 +198,7 @@ BevelFans bevelFans(const EdgeGraph& graph, double edge_mm) {
   for (std::size_t v = 0; v < fans.radius_mm.size(); ++v) {
     if (graph.awkward[v] != 0) fans.radius_mm[v] = 0.0;
   }
-  shrinkRadii(graph, fans);
+  shrinkRadii(graph, fans, kThin * edge_mm);
   return fans;
 }
 

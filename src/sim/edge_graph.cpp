@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <tuple>
 
+#include "sim/flat_flips.h"
+
 namespace rangepose {
 namespace {
 
@@ -61,6 +63,7 @@ void findEdges(EdgeGraph& graph) {
     sides.push_back({std::min(a, b), std::max(a, b), corner});
   }
   std::sort(sides.begin(), sides.end());
+  graph.edges.clear();
   graph.awkward.assign(graph.vertices.size(), 0);
   for (std::size_t i = 0; i < sides.size();) {
     const Side& side = sides[i];
@@ -129,8 +132,12 @@ EdgeGraph edgeGraph(const Mesh& mesh) {
   checkMesh(mesh);
   EdgeGraph graph;
   weld(mesh, graph);
+  const double lowest_mm = kNeedleShare * boundingSphere(mesh).radius_mm;
   findEdges(graph);
-  findNormals(graph, kNeedleShare * boundingSphere(mesh).radius_mm);
+  findNormals(graph, lowest_mm);
+  flipFlatEdges(graph);
+  findEdges(graph);
+  findNormals(graph, lowest_mm);
   for (GraphEdge& edge : graph.edges) {
     const glm::dvec3& left = graph.normals[edge.left / 3];
     const glm::dvec3& right = graph.normals[edge.right / 3];

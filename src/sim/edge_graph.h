@@ -42,6 +42,7 @@ struct EdgeGraph {
   glm::dvec3 cross(std::size_t triangle) const;  ///< along the normal, twice the area [mm^2]
 };
 
+/// Flat faces are filled with other triangles than the mesh has (flat_flips.h).
 EdgeGraph edgeGraph(const Mesh& mesh);
 
 /// Sets of numbers that are joined pair by pair; each set is named after its smallest number.

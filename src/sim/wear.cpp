@@ -82,30 +82,27 @@ void close(const Rim& rim, BevelledMesh& part) {
   }
 }
 
-/// Whether anything was closed.
-bool closeSome(const EdgeGraph& graph,
+void closeSome(const EdgeGraph& graph,
                double diameter_mm,
                const WearOptions& options,
                const Draws& draws,
                BevelledMesh& part) {
   const bool hole = draws.hole < options.hole_closed;
   const bool opening = draws.opening < options.opening_closed;
-  if (!hole && !opening) return false;
+  if (!hole && !opening) return;
   const std::vector<Rim> rims =
       findRims(graph, kSmallestHole * diameter_mm, kLargestOpening * diameter_mm);
   std::vector<const Rim*> holes;
   std::vector<const Rim*> openings;
   for (const Rim& rim : rims)
     (rim.width_mm <= kLargestHole * diameter_mm ? holes : openings).push_back(&rim);
-  const bool hole_is_closed = hole && !holes.empty();
-  if (hole_is_closed) {
+  if (hole && !holes.empty()) {
     const Rim& rim = *holes[choice(draws.which_hole, holes.size())];
     close(rim, part);
     if (rim.other >= 0) close(rims[static_cast<std::size_t>(rim.other)], part);
   }
-  const bool opening_is_closed = opening && !openings.empty();
-  if (opening_is_closed) close(*openings[choice(draws.which_opening, openings.size())], part);
-  return hole_is_closed || opening_is_closed;
+  if (opening && !openings.empty())
+    close(*openings[choice(draws.which_opening, openings.size())], part);
 }
 
 /// The shiny triangles alone, in the worn part's vertices.
@@ -139,10 +136,10 @@ WornPart wornPart(const Mesh& cad, const WearOptions& options, std::uint64_t see
   const EdgeGraph graph = edgeGraph(cad);
   const Draws draws = draw(seed, options.scale);
   BevelledMesh part = bevelled(graph, options.edge_mm);
-  const bool any_closed = closeSome(graph, diameter(cad), options, draws, part);
+  closeSome(graph, diameter(cad), options, draws, part);
   WornPart worn;
   worn.mesh.name = cad.name;
-  worn.mesh.solid = cad.solid && !any_closed;
+  worn.mesh.solid = cad.solid;  // lids have no back, either
   worn.mesh.triangles = part.triangles;
   const glm::dvec3 center = boundingSphere(cad).center_mm;
   for (const glm::dvec3& vertex : part.vertices)
