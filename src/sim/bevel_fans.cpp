@@ -3,12 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/bevel_followers.h"
+
 namespace rangepose {
 namespace {
 
 constexpr double kLongestInset = 1.5;  ///< of the radius, in acute corners of a face
 constexpr double kKept = 0.4;          ///< share of an area or a length that must be left
-constexpr double kThin = 0.1;          ///< of the radius: what is thinner isn't seen
 constexpr double kTurnedCos = 0.8;     ///< a triangle may turn by 37 degrees
 constexpr double kTaper = 0.5;         ///< change of the radius along a ridge, of the length
 constexpr double kLess = 0.75;         ///< a radius that is too large becomes so much of it
@@ -168,12 +169,27 @@ std::vector<char> tooFar(const EdgeGraph& graph, const BevelFans& fans, double t
   return too_far;
 }
 
+/// Followers move as far as their leaders at the ridge, and not at all at the end of its reach.
+void follow(const std::vector<Follower>& followers, double reach, std::vector<double>& radius_mm) {
+  for (const Follower& follower : followers) {
+    radius_mm[follower.vertex] =
+        std::max(0.0, radius_mm[follower.leader] - follower.distance_mm / reach);
+  }
+}
+
 /// Ends: each pass past kPasses that finds something lets vertices stay for good, and a triangle or
 /// an edge whose vertices all stay is sound.
-void shrinkRadii(const EdgeGraph& graph, BevelFans& fans, double thin_mm) {
+void shrinkRadii(const EdgeGraph& graph,
+                 const std::vector<Follower>& followers,
+                 double thin_mm,
+                 BevelFans& fans) {
   for (int pass = 0;; ++pass) {
     taper(graph, fans.radius_mm);
-    const std::vector<char> too_far = tooFar(graph, fans, thin_mm);
+    follow(followers, kFollowReach, fans.radius_mm);
+    std::vector<char> too_far = tooFar(graph, fans, thin_mm);
+    for (const Follower& follower : followers) {
+      if (too_far[follower.vertex] != 0) too_far[follower.leader] = 1;
+    }
     bool any = false;
     for (std::size_t v = 0; v < too_far.size(); ++v) {
       if (too_far[v] == 0 || fans.radius_mm[v] == 0.0) continue;
@@ -182,6 +198,26 @@ void shrinkRadii(const EdgeGraph& graph, BevelFans& fans, double thin_mm) {
     }
     if (!any) return;
   }
+}
+
+/// Lets smooth surface near ridges move along, within its own planes.
+std::vector<Follower> addFollowers(const EdgeGraph& graph, double edge_mm, BevelFans& fans) {
+  std::vector<glm::dvec3> inset(fans.fan.size());
+  for (std::size_t corner = 0; corner < inset.size(); ++corner)
+    inset[corner] = fans.inset[fans.fan[corner]];
+  std::vector<Follower> followers = findFollowers(graph, inset, edge_mm);
+  std::vector<std::uint32_t> fan_of_vertex(graph.vertices.size());
+  std::vector<glm::dvec3> normal(graph.vertices.size(), glm::dvec3(0.0));
+  for (std::uint32_t corner = 0; corner < inset.size(); ++corner) {
+    fan_of_vertex[graph.vertexOf(corner)] = fans.fan[corner];
+    normal[graph.vertexOf(corner)] += graph.normals[corner / 3];
+  }
+  for (const Follower& follower : followers) {
+    const glm::dvec3 up = glm::normalize(normal[follower.vertex]);
+    const glm::dvec3& move = inset[follower.corner];
+    fans.inset[fan_of_vertex[follower.vertex]] = move - glm::dot(move, up) * up;
+  }
+  return followers;
 }
 
 }  // namespace
@@ -198,7 +234,7 @@ BevelFans bevelFans(const EdgeGraph& graph, double edge_mm) {
   for (std::size_t v = 0; v < fans.radius_mm.size(); ++v) {
     if (graph.awkward[v] != 0) fans.radius_mm[v] = 0.0;
   }
-  shrinkRadii(graph, fans, kThin * edge_mm);
+  shrinkRadii(graph, addFollowers(graph, edge_mm, fans), unseenBy(edge_mm), fans);
   return fans;
 }
 

@@ -1,6 +1,7 @@
 // Where the surface around each vertex goes when sharp edges are rounded.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,10 @@ struct BevelFans {
     return graph.vertices[vertex] + radius_mm[vertex] * inset[fan[corner]];
   }
 };
+
+/// What is smaller doesn't count when edges are rounded by that radius [mm]: no depth camera tells
+/// it from nothing.
+inline double unseenBy(double edge_mm) { return std::min(0.02, 0.1 * edge_mm); }
 
 /// Radii of `edge_mm`, or less where the surface is narrow: no triangle loses more than 60 % of its
 /// area or turns over, no edge more than 60 % of its length. No corner moves by more than 1.5
