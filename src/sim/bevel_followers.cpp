@@ -7,9 +7,12 @@
 namespace rangepose {
 namespace {
 
-/// A vertex that may follow a leader; the nearest leader gets it.
+/// Of the two ends of a ridge the nearer one leads.
+constexpr double kEndShare = 0.01;
+
+/// A vertex that may follow a leader; the one with the nearest ridge gets it.
 struct Offer {
-  double distance_mm;  ///< between the vertices
+  double distance_mm;  ///< from the leader's ridges
   std::uint32_t vertex;
   std::uint32_t corner;  ///< of the leader
   bool operator<(const Offer& other) const {
@@ -43,6 +46,34 @@ struct CornersOfVertices {
   std::vector<std::uint32_t> list;
 };
 
+/// Each vertex's neighbours along ridges.
+class Ridges {
+ public:
+  explicit Ridges(const EdgeGraph& graph) : graph_(graph), next_(graph.vertices.size()) {
+    for (const GraphEdge& edge : graph.edges) {
+      if (!edge.ridge) continue;
+      next_[edge.from].push_back(edge.to);
+      next_[edge.to].push_back(edge.from);
+    }
+  }
+  /// From a point to the ridges that end at a vertex [mm].
+  double distance(const glm::dvec3& point, std::uint32_t vertex) const {
+    const glm::dvec3 start = graph_.vertices[vertex];
+    const double apart = glm::distance(point, start);
+    double nearest = apart;
+    for (const std::uint32_t next : next_[vertex]) {
+      const glm::dvec3 along = graph_.vertices[next] - start;
+      const double t = glm::dot(point - start, along) / glm::dot(along, along);
+      nearest = std::min(nearest, glm::distance(point, start + std::clamp(t, 0.0, 1.0) * along));
+    }
+    return nearest + kEndShare * apart;
+  }
+
+ private:
+  const EdgeGraph& graph_;
+  std::vector<std::vector<std::uint32_t>> next_;
+};
+
 }  // namespace
 
 std::vector<Follower> findFollowers(const EdgeGraph& graph,
@@ -50,14 +81,14 @@ std::vector<Follower> findFollowers(const EdgeGraph& graph,
                                     double edge_mm) {
   const double reach_mm = kFollowReach * edge_mm;
   std::vector<char> free = smoothVertices(graph);
+  const Ridges ridges(graph);
   std::priority_queue<Offer> offers;
   const auto offer = [&](std::uint32_t corner, std::uint32_t leader) {
     for (const std::uint32_t next : {nextCorner(corner), nextCorner(nextCorner(corner))}) {
       const std::uint32_t vertex = graph.vertexOf(next);
-      const double distance =
-          glm::distance(graph.vertices[vertex], graph.vertices[graph.vertexOf(leader)]);
-      // Along a ridge vertices may be far apart.
-      if (free[vertex] != 0 && distance <= 2.0 * reach_mm) offers.push({distance, vertex, leader});
+      if (free[vertex] == 0) continue;
+      const double distance = ridges.distance(graph.vertices[vertex], graph.vertexOf(leader));
+      if (distance <= reach_mm) offers.push({distance, vertex, leader});
     }
   };
   for (std::uint32_t corner = 0; corner < inset.size(); ++corner) {

@@ -137,6 +137,17 @@ TEST(WearTest, SeamsOfTheFileDoNotMatter) {
   EXPECT_NEAR(volumeOf(worn), volumeOf(wornPart(kBox, onlyEdges(0.5), 1).mesh), 0.01);
 }
 
+TEST(WearTest, FineMeshesAreRoundedAsMuchAsCoarseOnes) {
+  const Mesh coarse = boxMesh({0, 0, 0}, {10, 8, 6});
+  Mesh fine = coarse;
+  for (int k = 0; k < 4; ++k) fine = quartered(fine);  // vertices 0.4 to 0.6 mm apart
+  const Mesh worn = wornPart(fine, onlyEdges(0.5), 1).mesh;
+  EXPECT_TRUE(isManifold(worn));
+  EXPECT_TRUE(isSolid(worn));
+  const double expected = volumeOf(coarse) - volumeOf(wornPart(coarse, onlyEdges(0.5), 1).mesh);
+  EXPECT_NEAR(volumeOf(fine) - volumeOf(worn), expected, 0.3 * expected);
+}
+
 TEST(WearTest, WithoutWearThePartIsItsCad) {
   const Mesh worn = wornPart(kBox, onlyEdges(0.0), 1).mesh;
   EXPECT_EQ(worn.triangles.size(), kBox.triangles.size());

@@ -63,6 +63,26 @@ inline Mesh rodMesh(double radius_mm, double height_mm) {
   return cleaned(mesh);
 }
 
+/// The same surface, each triangle cut into four.
+inline Mesh quartered(const Mesh& mesh) {
+  Mesh result;
+  result.name = mesh.name;
+  for (const glm::uvec3& triangle : mesh.triangles) {
+    const auto first = static_cast<unsigned>(result.vertices.size());
+    for (int k = 0; k < 3; ++k) result.vertices.push_back(mesh.vertices[triangle[k]]);
+    for (int k = 0; k < 3; ++k) {
+      const glm::vec3& a = mesh.vertices[triangle[k]];
+      const glm::vec3& b = mesh.vertices[triangle[(k + 1) % 3]];
+      result.vertices.push_back(0.5f * (a + b));
+    }
+    result.triangles.emplace_back(first, first + 3, first + 5);
+    result.triangles.emplace_back(first + 3, first + 1, first + 4);
+    result.triangles.emplace_back(first + 5, first + 4, first + 2);
+    result.triangles.emplace_back(first + 3, first + 4, first + 5);
+  }
+  return result;
+}
+
 inline double volumeOf(const Mesh& mesh) {
   double volume = 0.0;
   for (const glm::uvec3& triangle : mesh.triangles) {
