@@ -18,8 +18,8 @@ constexpr int kFarLevelPx = 8;
 /// What lies outside is judged by these [px].
 constexpr int kOutsideFromPx = 6;
 constexpr int kOutsideToPx = 14;
-constexpr int kLeastNear = 3;     ///< of 7
-constexpr int kLeastOutside = 5;  ///< of 9
+constexpr int kLeastNear = 3;      ///< of 7
+constexpr int kLeastOutside = 5;   ///< of 9
 constexpr int kLeastBetween = 11;  ///< of 13
 /// Between the quartiles of what is measured at the far level, and between its line's ends, as a
 /// share of the jump: no more.
@@ -98,8 +98,7 @@ class Profiler {
     // Half of that of a straight contour: a thin or a ragged place has no normal.
     if (steep * kSmoothPx < 0.2) return false;
     profile.outward = -glm::normalize(slope);
-    profile.contour_px =
-        glm::dvec2(u, v) + (value / weights - 0.5) / steep * profile.outward;
+    profile.contour_px = glm::dvec2(u, v) + (value / weights - 0.5) / steep * profile.outward;
     return true;
   }
 

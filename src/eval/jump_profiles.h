@@ -24,8 +24,8 @@ enum class ContourSide { kLeft, kRight, kTop, kBottom };  ///< of the part; with
 
 struct JumpProfile {
   int part = -1;
-  glm::dvec2 contour_px{0.0};  ///< where the true contour is passed
-  glm::dvec2 outward{0.0};     ///< unit vector
+  glm::dvec2 contour_px{0.0};                      ///< where the true contour is passed
+  glm::dvec2 outward{0.0};                         ///< unit vector
   std::array<float, kProfileSteps> measured_mm{};  ///< 0: not measured
   std::array<double, kProfileSteps> place_px{};    ///< of the pixel, along the normal
   /// Of the part: the known depth and what the data is off from it 6 to 12 px inside; outside, as
@@ -52,14 +52,14 @@ inline constexpr std::array<int, 9> kProfilePlacesPx = {-6, -4, -2, -1, 0, 1, 2,
 /// Of the profiles on one side of the parts.
 struct SideTally {
   long long profiles = 0;
-  long long hole_px = 0;          ///< the longest run of pixels without depth that is at the contour
-  long long wide_holes = 0;       ///< profiles where that is 2 px or longer
+  long long hole_px = 0;     ///< the longest run of pixels without depth that is at the contour
+  long long wide_holes = 0;  ///< profiles where that is 2 px or longer
   std::vector<float> passing_px;  ///< of profiles with few holes: where half of the jump is passed
 };
 
 struct JumpTally {
-  long long profiles = 0;    ///< with few holes: the next is of these
-  long long smeared_px = 0;  ///< steps that are between 15 and 85 % of the jump
+  long long profiles = 0;          ///< with few holes: the next is of these
+  long long smeared_px = 0;        ///< steps that are between 15 and 85 % of the jump
   std::array<SideTally, 4> sides;  ///< by ContourSide
   /// What JumpProfile::fraction() gives at each of kProfilePlacesPx, where there is depth.
   std::array<std::vector<float>, kProfilePlacesPx.size()> fractions;

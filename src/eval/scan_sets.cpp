@@ -58,9 +58,10 @@ std::map<int, Model> modelsOf(const BopDataset& data, const std::vector<ScanJob>
   }
   for (const auto& [id, model] : models) {
     if (model.diameter_mm > 0.0) continue;
-    throw Error(fmt::format(
-        "truth: object {} has no model in {}; expected models/obj_{:06}.ply", id,
-        data.folder.string(), id));
+    throw Error(fmt::format("truth: object {} has no model in {}; expected models/obj_{:06}.ply",
+                            id,
+                            data.folder.string(),
+                            id));
   }
   return models;
 }
@@ -90,8 +91,7 @@ ScanStatistics measureScans(const ScanSet& set) {
   const std::vector<ScanJob> jobs = jobsOf(data, set);
   const std::map<int, Model> models = modelsOf(data, jobs);
   std::vector<ScanTally> tallies(jobs.size());
-  parallelForEach(
-      jobs.size(), 1, [&](std::size_t i) { tallies[i] = tallyJob(jobs[i], models); });
+  parallelForEach(jobs.size(), 1, [&](std::size_t i) { tallies[i] = tallyJob(jobs[i], models); });
   ScanTally all;
   for (const ScanTally& tally : tallies) all.add(tally);
   if (all.parts == 0) {

@@ -28,9 +28,8 @@ void addErrorRows(const ScanStatistics& set, std::vector<Row>& rows) {
                     3});
   }
   for (std::size_t i = 0; i < kErrorShiftsPx.size(); ++i) {
-    rows.push_back({fmt::format("error: correlation {} px off", kErrorShiftsPx[i]),
-                    set.correlation[i],
-                    2});
+    rows.push_back(
+        {fmt::format("error: correlation {} px off", kErrorShiftsPx[i]), set.correlation[i], 2});
   }
 }
 

@@ -83,6 +83,18 @@ void renderPart(const Mesh& mesh, std::size_t index, const Pose& pose, CleanView
   });
 }
 
+/// Marks pixels where faces of a part are what is seen of the scene.
+void renderShiny(const Mesh& faces, std::size_t index, const Pose& pose, CleanView& view) {
+  if (faces.triangles.empty()) return;
+  const SurfaceWindow window = windowOf(faces, view.camera, pose);
+  render(faces, view.camera, pose, window, [&](int u, int v, const SurfaceTexel& texel) {
+    constexpr float kSameMm = 0.01f;
+    const bool seen = view.part.at(u, v) == static_cast<std::int16_t>(index) &&
+                      texel.w <= view.surface.at(u, v).w + kSameMm;
+    if (seen) view.shiny.at(u, v) = 1;
+  });
+}
+
 }  // namespace
 
 Camera padded(const Camera& camera, int margin_px) {
@@ -98,11 +110,13 @@ CleanView renderHeap(const std::vector<Mesh>& meshes,
                      const std::vector<PlacedPart>& heap,
                      const Camera& camera,
                      const Pose& camera_from_world,
-                     const Surroundings& surroundings) {
+                     const Surroundings& surroundings,
+                     const std::vector<Mesh>& shiny) {
   CleanView view;
   view.camera = camera;
   view.surface = Image<SurfaceTexel>(camera.width, camera.height);
   view.part = Image<std::int16_t>(camera.width, camera.height, std::int16_t{-1});
+  view.shiny = Image<std::uint8_t>(camera.width, camera.height);
   view.silhouette_px.assign(heap.size(), 0);
   view.silhouettes.resize(heap.size());
   for (int v = 0; v < camera.height; ++v) {
@@ -116,6 +130,10 @@ CleanView renderHeap(const std::vector<Mesh>& meshes,
   for (std::size_t k = 0; k < heap.size(); ++k) {
     const Mesh& mesh = meshes.at(static_cast<std::size_t>(heap[k].mesh));
     renderPart(mesh, k, camera_from_world * heap[k].world_from_object, view);
+  }
+  for (std::size_t k = 0; k < heap.size() && !shiny.empty(); ++k) {
+    const Mesh& faces = shiny.at(static_cast<std::size_t>(heap[k].mesh));
+    renderShiny(faces, k, camera_from_world * heap[k].world_from_object, view);
   }
   return view;
 }

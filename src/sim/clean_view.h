@@ -22,6 +22,7 @@ struct CleanView {
   Camera camera;
   Image<SurfaceTexel> surface;          ///< nearest of all parts, bin and table
   Image<std::int16_t> part;             ///< index into the heap; -1 bin, table or nothing
+  Image<std::uint8_t> shiny;            ///< 1 where a face is seen that sends no light back
   std::vector<int> silhouette_px;       ///< by part: pixels it would cover if it were alone
   std::vector<Silhouette> silhouettes;  ///< likewise
 };
@@ -35,11 +36,13 @@ struct Surroundings {
 /// The same camera with margin_px more image on all sides.
 Camera padded(const Camera& camera, int margin_px);
 
-/// Silhouettes are counted within the camera's image.
+/// Silhouettes are counted within the camera's image. `shiny` has the faces of each mesh that send
+/// no light back to a sensor, or nothing for any mesh.
 CleanView renderHeap(const std::vector<Mesh>& meshes,
                      const std::vector<PlacedPart>& heap,
                      const Camera& camera,
                      const Pose& camera_from_world,
-                     const Surroundings& surroundings = {});
+                     const Surroundings& surroundings = {},
+                     const std::vector<Mesh>& shiny = {});
 
 }  // namespace rangepose

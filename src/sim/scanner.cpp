@@ -25,6 +25,7 @@ CleanView cropped(const CleanView& wide, const Camera& camera, int margin_px) {
   view.camera = camera;
   view.surface = cropped(wide.surface, margin_px);
   view.part = cropped(wide.part, margin_px);
+  view.shiny = cropped(wide.shiny, margin_px);
   view.silhouette_px = wide.silhouette_px;
   return view;
 }
@@ -168,21 +169,25 @@ Scan scanFrom(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const Pose& camera_from_world,
               const ScannerOptions& options,
-              const Surroundings& surroundings) {
+              const Surroundings& surroundings,
+              const std::vector<Mesh>& shiny) {
   const Camera camera = scannerCamera(options);
   checkDistance(meshes, heap, camera_from_world);
   // Beyond the border, so that a part that it cuts counts as partly hidden.
   const int margin_px = camera.width / 2;
   const Camera wide_camera = padded(camera, margin_px);
-  const CleanView wide = renderHeap(meshes, heap, wide_camera, camera_from_world, surroundings);
+  const CleanView wide =
+      renderHeap(meshes, heap, wide_camera, camera_from_world, surroundings, shiny);
   const RenderFrom render = [&](const Camera& from, const glm::dvec3& position_mm) {
     const Pose there_from_camera{glm::dmat3(1.0), -position_mm};
-    return renderHeap(meshes, heap, from, there_from_camera * camera_from_world, surroundings);
+    const Pose there_from_world = there_from_camera * camera_from_world;
+    return renderHeap(meshes, heap, from, there_from_world, surroundings, shiny);
   };
   Scan scan;
   scan.camera_from_world = camera_from_world;
   scan.image.camera = camera;
-  scan.image.depth_mm = sense(cropped(wide, camera, margin_px), render, options.sensor, options.seed);
+  scan.image.depth_mm =
+      sense(cropped(wide, camera, margin_px), render, options.sensor, options.seed);
   scan.truth = truthOf(heap, camera_from_world, wide, margin_px, scan.image.depth_mm);
   return scan;
 }
@@ -200,7 +205,7 @@ double distanceFor(const BinShape& bin, const ScannerOptions& options) {
   for (const glm::vec3& vertex : mesh.vertices) {
     const glm::dvec3 p = poseOver(middleOf(bin), from) * glm::dvec3(vertex);
     const double needed =
-        camera.fx * std::max(std::abs(p.x) / half_px.x, std::abs(p.y) / half_px.y);
+        std::max(camera.fx * std::abs(p.x) / half_px.x, camera.fy * std::abs(p.y) / half_px.y);
     const double nearer = camera.orthographic ? 0.0 : from.distance_mm - p.z;
     distance_mm = std::max(distance_mm, needed + nearer);
   }
@@ -210,10 +215,11 @@ double distanceFor(const BinShape& bin, const ScannerOptions& options) {
 Scan scanBin(const std::vector<Mesh>& meshes,
              const std::vector<PlacedPart>& parts,
              const BinShape& bin,
-             const ScannerOptions& options) {
+             const ScannerOptions& options,
+             const std::vector<Mesh>& shiny) {
   ScannerOptions from = options;
   if (from.distance_mm == 0.0) from.distance_mm = distanceFor(bin, options);
-  return scanFrom(meshes, parts, poseOver(middleOf(bin), from), from, surroundingsOf(bin));
+  return scanFrom(meshes, parts, poseOver(middleOf(bin), from), from, surroundingsOf(bin), shiny);
 }
 
 }  // namespace rangepose

@@ -57,12 +57,13 @@ Scan scanHeap(const std::vector<Mesh>& meshes,
               const ScannerOptions& options);
 
 /// The same from a camera placed at will; the tilt of the options is not used, and the distance
-/// only for the pixel size of an orthographic camera.
+/// only for the pixel size of an orthographic camera. `shiny` as for renderHeap().
 Scan scanFrom(const std::vector<Mesh>& meshes,
               const std::vector<PlacedPart>& heap,
               const Pose& camera_from_world,
               const ScannerOptions& options,
-              const Surroundings& surroundings = {});
+              const Surroundings& surroundings = {},
+              const std::vector<Mesh>& shiny = {});
 
 /// A bin that stands on a table, and what lies in it.
 Surroundings surroundingsOf(const BinShape& bin);
@@ -75,6 +76,7 @@ double distanceFor(const BinShape& bin, const ScannerOptions& options);
 Scan scanBin(const std::vector<Mesh>& meshes,
              const std::vector<PlacedPart>& parts,
              const BinShape& bin,
-             const ScannerOptions& options);
+             const ScannerOptions& options,
+             const std::vector<Mesh>& shiny = {});
 
 }  // namespace rangepose

@@ -40,7 +40,11 @@ Image<float> senseByLight(const CleanView& seen,
     projector = projectorAt(position_mm, seen.camera, render);
   }
   Random random(seed);
-  return sensed(seen.surface, seen.camera, projector, sensor.noise, random);
+  Image<float> depth_mm = sensed(seen.surface, seen.camera, projector, sensor.noise, random);
+  for (std::size_t i = 0; i < depth_mm.size(); ++i) {
+    if (seen.shiny.data()[i] != 0) depth_mm.data()[i] = 0.0f;
+  }
+  return depth_mm;
 }
 
 /// Pixels of the sensor's own image are other ones in an image of another width.

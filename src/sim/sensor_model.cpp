@@ -19,9 +19,9 @@ SensorModel ideal() {
   return model;
 }
 
-/// RealSense D435: f 422 px and baseline 50 mm at 848x480, depth in steps of 1 mm as delivered. What
-/// its images and its matching are like was chosen so that scans of pipe elbows have the statistics
-/// of real ones (docs/sensors.md).
+/// RealSense D435: f 422 px and baseline 50 mm at 848x480, depth in steps of 1 mm as delivered.
+/// What its images and its matching are like was chosen so that scans of pipe elbows have the
+/// statistics of real ones (docs/sensors.md).
 SensorModel realsenseD435() {
   SensorModel model;
   model.kind = SensorKind::kStereo;
@@ -38,7 +38,7 @@ SensorModel realsenseD435() {
   model.matching.image_noise = 14.0;
   model.matching.smoothness = 0.2;
   model.matching.uniqueness_percent = 17;
-  model.matching.least_contrast = 40.0;
+  model.matching.least_contrast = 28.0;
   model.matching.least_disparity_px = 8;
   model.matching.speckle_px = 200;
   model.matching.smoothing_px = 2.2;
@@ -55,8 +55,8 @@ SensorModel realsenseD415() {
   return model;
 }
 
-/// Kinect of 2010, PrimeSense: disparity in steps of 1/8 px, baseline 75 mm (Khoshelham and Elberink,
-/// Sensors 12:1437, 2012). The rest was chosen as that of the D435, on scans of blocks.
+/// Kinect of 2010, PrimeSense: disparity in steps of 1/8 px, baseline 75 mm (Khoshelham and
+/// Elberink, Sensors 12:1437, 2012). The rest was chosen as that of the D435, on scans of blocks.
 SensorModel kinectV1() {
   SensorModel model;
   model.kind = SensorKind::kSpeckle;
@@ -131,7 +131,7 @@ SensorModel laser() {
   model.height = 240;
   model.fy = 0.5 * model.fx;
   model.depth_scale = 0.05;
-  model.baseline_mm = 200.0;
+  model.baseline_mm = 150.0;
   model.noise.sigma_mm = 0.1;
   model.noise.edge_loss = 0.4;
   model.noise.edge_mix = 0.05;
@@ -149,7 +149,9 @@ struct Preset {
 constexpr Preset kPresets[] = {
     {"none", "depth as it is", ideal},
     {"structured-light", "a good industrial scanner", [] { return structuredLight(1); }},
-    {"rough", "the same, 1 mm at 1 m, a tenth of all pixels lost", [] { return structuredLight(2); }},
+    {"rough",
+     "the same, 1 mm at 1 m, a tenth of all pixels lost",
+     [] { return structuredLight(2); }},
     {"stereo", "two infrared cameras and dots, as realsense-d435", realsenseD435},
     {"speckle", "one infrared camera and dots, as kinect-v1", kinectV1},
     {"tof", "time of flight, as azure-kinect", azureKinect},

@@ -31,7 +31,7 @@ struct MatchingSensor {
   int uniqueness_percent = 10;  ///< the best match must be better than all others by this
   double least_contrast = 0.0;  ///< deviation of grey values in a window; pixels with less are lost
   int least_disparity_px = 0;
-  int disparities = 128;        ///< tried from the least one, a multiple of 16
+  int disparities = 128;           ///< tried from the least one, a multiple of 16
   double disparity_step = 0.0625;  ///< of the result [px], at least OpenCV's 1/16
   int agreement_px = 1;            ///< both ways of matching may differ by this
   int speckle_px = 100;            ///< smaller patches of disparity are dropped

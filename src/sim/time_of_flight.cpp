@@ -30,7 +30,7 @@ Patch patchAt(const CleanView& view, const std::vector<Reflectance>& reflectance
   constexpr double kUnitWayMm = 1000.0;
   Patch patch;
   const SurfaceTexel& texel = view.surface.at(u, v);
-  if (texel.w == 0.0f) return patch;
+  if (texel.w == 0.0f || view.shiny.at(u, v) != 0) return patch;
   const int part = view.part.at(u, v);
   patch.at_mm = view.camera.unproject(u, v, texel.w);
   patch.normal = glm::dvec3(texel);
@@ -84,9 +84,8 @@ Wave bounced(const Patch& from, const Patch& to, double pixels, double rad_per_m
   const double area_mm2 = pixels * from.area_mm2;
   // A patch that is wide for its distance fills at most half of what the other one sees.
   const double share = std::min(0.5, out * in * area_mm2 / (std::numbers::pi * distance_sq));
-  return wave(from.lit * from.diffuse * share * to.diffuse,
-              from.way_mm + distance + to.way_mm,
-              rad_per_mm);
+  return wave(
+      from.lit * from.diffuse * share * to.diffuse, from.way_mm + distance + to.way_mm, rad_per_mm);
 }
 
 struct Waves {

@@ -11,6 +11,7 @@
 #include "io/length_unit.h"
 #include "io/mesh_file.h"
 #include "rangepose/console.h"
+#include "wear/wear.h"
 
 namespace rangepose::cli {
 namespace {
@@ -50,13 +51,14 @@ double depthScaleFor(double far_mm, double least) {
   }
 }
 
-/// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts first;
-/// in the order in which they fell.
+/// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts
+/// first; in the order in which they fell.
 std::vector<PlacedPart> partsLeft(const std::vector<PlacedPart>& parts, int image, int images) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].world_from_object.translation_mm.z < parts[b].world_from_object.translation_mm.z;
+    return parts[a].world_from_object.translation_mm.z <
+           parts[b].world_from_object.translation_mm.z;
   });
   const auto whole = static_cast<int>(parts.size());
   const int left = std::max(1, whole * (images - image) / images);
@@ -130,24 +132,49 @@ void BinSimulator::makeBin(int bin, const std::atomic<bool>& stop) {
   const double far_mm = 1.5 * (scanner.distance_mm + glm::length(dropped.bin.inner_mm));
   const bool exact = scanner.sensor.kind == SensorKind::kNone;
   scanner.depth_scale = depthScaleFor(far_mm, exact ? 1e-3 : scanner.sensor.depth_scale);
+  const Contents contents = contentsOf(dropped, derivedSeed(arguments_.seed, number, 3));
   std::vector<BopView> views;
   for (int image = 0; image < arguments_.images; ++image) {
     if (stop) return;
-    const std::vector<PlacedPart> left = partsLeft(dropped.parts, image, arguments_.images);
-    views.push_back(viewOf(image, dropped, scanBin(meshes_, left, dropped.bin, scanner)));
+    const std::vector<PlacedPart> left = partsLeft(contents.parts, image, arguments_.images);
+    const Scan scan = scanBin(contents.meshes, left, dropped.bin, scanner, contents.shiny);
+    views.push_back(viewOf(image, dropped.bin, contents, scan));
     ++scanner.seed;
   }
   write(bin + 1, views);
 }
 
-BopView BinSimulator::viewOf(int im_id, const DroppedBin& dropped, const Scan& scan) const {
+BinSimulator::Contents BinSimulator::contentsOf(const DroppedBin& dropped,
+                                                std::uint64_t seed) const {
+  Contents contents;
+  contents.parts = dropped.parts;
+  if (!arguments_.wear) {
+    contents.meshes = meshes_;
+    for (std::size_t k = 0; k < meshes_.size(); ++k) contents.models.push_back(static_cast<int>(k));
+    return contents;
+  }
+  for (std::size_t k = 0; k < contents.parts.size(); ++k) {
+    const int model = contents.parts[k].mesh;
+    WornPart worn = wornPart(meshes_[static_cast<std::size_t>(model)], {}, derivedSeed(seed, k, 1));
+    contents.meshes.push_back(std::move(worn.mesh));
+    contents.shiny.push_back(std::move(worn.shiny));
+    contents.models.push_back(model);
+    contents.parts[k].mesh = static_cast<int>(k);
+  }
+  return contents;
+}
+
+BopView BinSimulator::viewOf(int im_id,
+                             const BinShape& bin,
+                             const Contents& contents,
+                             const Scan& scan) const {
   BopView view;
   view.im_id = im_id;
   view.image = scan.image;
   view.camera_from_world = scan.camera_from_world;
-  view.bin = binBox(dropped.bin, scan.camera_from_world);
+  view.bin = binBox(bin, scan.camera_from_world);
   for (const PartTruth& part : scan.truth) {
-    view.parts.push_back({part.mesh + 1,
+    view.parts.push_back({contents.models[static_cast<std::size_t>(part.mesh)] + 1,
                           part.camera_from_object,
                           part.visible_fraction,
                           part.all_px,

@@ -26,8 +26,9 @@ struct SimulateArguments {
   std::string unit = "mm";
   std::string size;                         ///< "640x480" [px]; empty: as the sensor has it
   std::string sensor = "structured-light";  ///< of sensorNames()
-  std::string bin_size;  ///< "300x200x100" [mm]; empty: as the parts need it
-  int images = 1;        ///< of each bin, which is emptied from the top meanwhile
+  std::string bin_size;                     ///< "300x200x100" [mm]; empty: as the parts need it
+  bool wear = false;                        ///< parts are not quite their models
+  int images = 1;  ///< of each bin, which is emptied from the top meanwhile
   double tilt_deg = 15.0;
   ScannerOptions scanner;
   DropOptions drop;
@@ -57,8 +58,17 @@ class BinSimulator {
     std::vector<BopTarget> targets;
   };
 
+  /// What lies in the bin: the models, or a worn part for each that was dropped.
+  struct Contents {
+    std::vector<Mesh> meshes;
+    std::vector<Mesh> shiny;        ///< faces of each mesh; empty: of none
+    std::vector<PlacedPart> parts;  ///< `mesh` is an index into meshes
+    std::vector<int> models;        ///< of each mesh: index of its model
+  };
+
+  Contents contentsOf(const DroppedBin& dropped, std::uint64_t seed) const;
   void describe(const PhysicsPart& part, const Symmetries& symmetries) const;
-  BopView viewOf(int im_id, const DroppedBin& dropped, const Scan& scan) const;
+  BopView viewOf(int im_id, const BinShape& bin, const Contents& contents, const Scan& scan) const;
   void write(int scene_id, const std::vector<BopView>& views);
 
   const SimulateArguments& arguments_;

@@ -55,9 +55,9 @@ void checkUsage(EvaluateArguments& arguments) {
                    (arguments.paper.models.empty() ? 0 : 1) +
                    (arguments.scans.folders.empty() ? 0 : 1);
   if (uses != 1) {
-    throw UsageError(
-        uses == 0 ? "nothing to evaluate; give --bop DIR, --paper MODELS_DIR or --scans DIR"
-                  : "give one of --bop, --paper and --scans, not more");
+    throw UsageError(uses == 0
+                         ? "nothing to evaluate; give --bop DIR, --paper MODELS_DIR or --scans DIR"
+                         : "give one of --bop, --paper and --scans, not more");
   }
   if (!arguments.scans.folders.empty()) {
     arguments.scans.split = arguments.bop.split;
@@ -141,7 +141,9 @@ void declarePaperScan(CLI::App& command, EvaluatePaperArguments& paper) {
       ->capture_default_str();
   command
       .add_option(
-          "--sensor", paper.sensor, "What takes the scans; matching sensors and time of flight need --camera perspective")
+          "--sensor",
+          paper.sensor,
+          "What takes the scans; matching sensors and time of flight need --camera perspective")
       ->check(CLI::IsMember(sensorNames()))
       ->option_text("NAME")
       ->capture_default_str();

@@ -163,6 +163,10 @@ void declareBins(CLI::App& command, SimulateArguments& arguments) {
                   "Of each bin, which is emptied from the top meanwhile, the same number at a time")
       ->check(CLI::Range(1, 500))
       ->capture_default_str();
+  command.add_flag(
+      "--wear",
+      arguments.wear,
+      "Parts differ a little from their models: size, edges, closed holes, lost faces");
   command.add_option("--seed", arguments.seed, "Same seed, same files")->capture_default_str();
   command.add_flag(
       "--mixed", arguments.mixed, "All models in each bin; else one model a bin in turn");
@@ -174,8 +178,7 @@ void declareBins(CLI::App& command, SimulateArguments& arguments) {
 }
 
 void declareScanner(CLI::App& command, SimulateArguments& arguments) {
-  command
-      .add_option("--sensor", arguments.sensor, sensorHelp())
+  command.add_option("--sensor", arguments.sensor, sensorHelp())
       ->check(CLI::IsMember(sensorNames()))
       ->option_text("NAME")
       ->capture_default_str();
@@ -187,7 +190,8 @@ void declareScanner(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--camera-distance",
                   arguments.scanner.distance_mm,
-                  "To the middle of the bin [mm]; 0: as near as the sensor allows with all of the bin in the image")
+                  "To the middle of the bin [mm]; 0: as near as the sensor allows with all of the "
+                  "bin in the image")
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
   command.add_option("--tilt", arguments.tilt_deg, "Of the view from straight down [degrees]")

@@ -1,9 +1,9 @@
-#include "sim/bevel.h"
+#include "wear/bevel.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/bevel_fans.h"
+#include "wear/bevel_fans.h"
 
 namespace rangepose {
 namespace {

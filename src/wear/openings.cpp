@@ -1,4 +1,4 @@
-#include "sim/openings.h"
+#include "wear/openings.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "sim/wear.h"
+#include "wear/wear.h"
 
 #include <gtest/gtest.h>
 

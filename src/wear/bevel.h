@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim/edge_graph.h"
+#include "wear/edge_graph.h"
 
 namespace rangepose {
 

@@ -9,8 +9,8 @@
 #include "geometry/solid.h"
 #include "geometry/triangle_tree.h"
 #include "io/mesh_file.h"
-#include "sim/wear.h"
 #include "sim/worn_meshes.h"
+#include "wear/wear.h"
 
 namespace rangepose {
 namespace {

@@ -1,9 +1,9 @@
-#include "sim/edge_graph.h"
+#include "wear/edge_graph.h"
 
 #include <algorithm>
 #include <tuple>
 
-#include "sim/flat_flips.h"
+#include "wear/flat_flips.h"
 
 namespace rangepose {
 namespace {

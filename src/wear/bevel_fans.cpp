@@ -1,9 +1,9 @@
-#include "sim/bevel_fans.h"
+#include "wear/bevel_fans.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "sim/bevel_followers.h"
+#include "wear/bevel_followers.h"
 
 namespace rangepose {
 namespace {

@@ -1,7 +1,7 @@
 // Better triangles for the flat faces of a mesh.
 #pragma once
 
-#include "sim/edge_graph.h"
+#include "wear/edge_graph.h"
 
 namespace rangepose {
 

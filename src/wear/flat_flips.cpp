@@ -1,4 +1,4 @@
-#include "sim/flat_flips.h"
+#include "wear/flat_flips.h"
 
 #include <array>
 

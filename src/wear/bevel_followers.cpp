@@ -1,4 +1,4 @@
-#include "sim/bevel_followers.h"
+#include "wear/bevel_followers.h"
 
 #include <algorithm>
 #include <queue>

@@ -1,4 +1,4 @@
-#include "sim/wear.h"
+#include "wear/wear.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "core/error.h"
-#include "sim/bevel.h"
-#include "sim/edge_graph.h"
-#include "sim/openings.h"
 #include "sim/random.h"
+#include "wear/bevel.h"
+#include "wear/edge_graph.h"
+#include "wear/openings.h"
 
 namespace rangepose {
 namespace {
