@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace rangepose {
 namespace {
@@ -60,20 +61,26 @@ void DepthSteps::add(const DepthSteps& other) {
 }
 
 double DepthSteps::commonStepMm() const {
-  constexpr long long kLargestUm = 20000;
+  constexpr int kLargestUm = 10000;
   constexpr double kOthers = 0.05;
-  double all = 0.0;
-  for (const auto& [depth_um, count] : counts) all += static_cast<double>(count);
   if (counts.empty()) return std::numeric_limits<double>::quiet_NaN();
-  for (long long step_um = kLargestUm; step_um > 1; --step_um) {
+  std::vector<std::pair<long long, long long>> values(counts.begin(), counts.end());
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second;  // the frequent ones first: they settle it sooner
+  });
+  double all = 0.0;
+  for (const auto& [depth_um, count] : values) all += static_cast<double>(count);
+  const auto isCommon = [&](int step_um) {
     double others = 0.0;
-    for (const auto& [depth_um, count] : counts) {
-      if (depth_um % step_um != 0) others += static_cast<double>(count);
-      if (others > kOthers * all) break;
+    for (const auto& [depth_um, count] : values) {
+      others += depth_um % step_um == 0 ? 0.0 : static_cast<double>(count);
+      if (others > kOthers * all) return false;
     }
-    if (others <= kOthers * all) return 1e-3 * static_cast<double>(step_um);
-  }
-  return 1e-3;
+    return true;
+  };
+  int step_um = kLargestUm;
+  while (!isCommon(step_um)) --step_um;
+  return 1e-3 * step_um;
 }
 
 DepthSteps depthSteps(const DepthImage& image,

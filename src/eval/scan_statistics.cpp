@@ -53,8 +53,7 @@ void fillJumps(const JumpTally& tally, ScanStatistics& figures) {
   for (std::size_t i = 0; i < tally.fractions.size(); ++i) {
     std::vector<float> fractions = tally.fractions[i];
     const auto measured = static_cast<double>(fractions.size());
-    figures.places[i] = {quantile(fractions, 0.5),
-                         ratio(static_cast<double>(all) - measured, all)};
+    figures.places[i] = {quantile(fractions, 0.5), ratio(static_cast<double>(all) - measured, all)};
   }
 }
 
@@ -73,8 +72,8 @@ ScanTally tallyScan(const DepthImage& image, const std::vector<KnownPart>& parts
   const KnownSurface known = renderKnown(parts, image.camera);
   ScanTally tally;
   tally.images = 1;
-  tally.parts = static_cast<int>(
-      std::count_if(parts.begin(), parts.end(), [](const KnownPart& part) { return part.counted; }));
+  tally.parts = static_cast<int>(std::count_if(
+      parts.begin(), parts.end(), [](const KnownPart& part) { return part.counted; }));
   tally.errors = tallySurfaceErrors(surfaceErrors(image, known, parts), known);
   tally.jumps = tallyJumps(jumpProfiles(image, known, parts));
   tally.lost = tallyLost(image, known, parts);

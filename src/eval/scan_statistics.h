@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/jump_profiles.h"
+#include "eval/jump_tally.h"
 #include "eval/lost_pixels.h"
 #include "eval/surface_errors.h"
 #include "io/bop.h"
@@ -86,7 +86,7 @@ struct ScanSet {
   std::filesystem::path folder;
   std::string split = "test";
   /// In the format of scene_gt.json; else each scene has its own.
-  std::optional<std::filesystem::path> truth;
+  std::optional<std::filesystem::path> truth = std::nullopt;
 };
 
 /// Measures all images with known poses; parts that scene_gt_info.json gives as less than half

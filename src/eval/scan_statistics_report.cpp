@@ -28,9 +28,8 @@ void addErrorRows(const ScanStatistics& set, std::vector<Row>& rows) {
                     3});
   }
   for (std::size_t i = 0; i < kErrorShiftsPx.size(); ++i) {
-    rows.push_back({fmt::format("error: correlation {} px off", kErrorShiftsPx[i]),
-                    set.correlation[i],
-                    2});
+    rows.push_back(
+        {fmt::format("error: correlation {} px off", kErrorShiftsPx[i]), set.correlation[i], 2});
   }
 }
 
@@ -84,8 +83,8 @@ std::string title(const ScanStatistics& set) {
 constexpr const char* kLegend = R"(
 Error: measured less true depth, along z, after the small motion of each part that explains most of
 it was taken out; inner pixels that agree with the pose, seen by 60 deg or less. Noise: from second
-differences along rows and columns, their smallest 90 %. Differs L px off by: root of half the mean
-squared difference of errors. Jumps: profiles across contours with 15 mm or more behind them;
+differences along rows and columns, cut off at three deviations. Differs L px off by: root of half
+the mean squared difference of errors. Jumps: profiles across contours with 15 mm or more behind them;
 smeared: pixels between 15 and 85 % of the jump; half passed at: positive outside of the true
 contour. Hole: the longest run of pixels without depth at the contour. Lost: visible inner pixels
 without depth.

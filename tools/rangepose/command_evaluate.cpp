@@ -51,9 +51,9 @@ void checkUsage(EvaluateArguments& arguments) {
                    (arguments.paper.models.empty() ? 0 : 1) +
                    (arguments.scans.folders.empty() ? 0 : 1);
   if (uses != 1) {
-    throw UsageError(
-        uses == 0 ? "nothing to evaluate; give --bop DIR, --paper MODELS_DIR or --scans DIR"
-                  : "give one of --bop, --paper and --scans, not more");
+    throw UsageError(uses == 0
+                         ? "nothing to evaluate; give --bop DIR, --paper MODELS_DIR or --scans DIR"
+                         : "give one of --bop, --paper and --scans, not more");
   }
   if (!arguments.scans.folders.empty()) {
     arguments.scans.split = arguments.bop.split;
