@@ -46,7 +46,7 @@ LostTally tallyLost(const DepthImage& image,
       if (!isCounted(pixel, parts) || isHidden(pixel, measured, parts)) continue;
       const LostShare one{1, measured == 0.0 ? 1 : 0};
       tally.silhouettes.add(one);
-      if (!pixel.inner) continue;
+      if (!pixel.inner()) continue;
       const double bins = static_cast<double>(tally.by_slant.size());
       const double slant = std::acos(static_cast<double>(pixel.cosine)) / (0.5 * std::numbers::pi);
       tally.by_slant[static_cast<std::size_t>(std::min(bins * slant, bins - 1.0))].add(one);
@@ -94,7 +94,7 @@ DepthSteps depthSteps(const DepthImage& image,
       if (measured == 0.0f) continue;
       ++steps.counts[std::llround(1000.0 * measured)];
       const KnownPixel& pixel = known.at(u, v);
-      if (!pixel.inner || !isCounted(pixel, parts)) continue;
+      if (!pixel.inner() || !isCounted(pixel, parts)) continue;
       const double off = std::abs(measured - pixel.depth_mm) * pixel.cosine;
       if (off <= agreementMm(parts[static_cast<std::size_t>(pixel.part)])) {
         values.push_back(measured);

@@ -59,6 +59,7 @@ struct ScanStatistics {
   /// e is measured minus known depth, less the small motion of the part that explains most of it.
   double rms_mm = 0.0;        ///< of e
   double mean_size_mm = 0.0;  ///< of e
+  double deep_rms_mm = 0.0;   ///< of e, kDeepPx or more inside of contours and jumps
   /// D(L) = sqrt(mean of 0.5 (e(p) - e(p+L))^2), for each of kErrorShiftsPx, pairs along rows and
   /// columns on the same part [mm].
   std::array<double, kErrorShiftsPx.size()> difference_mm{};

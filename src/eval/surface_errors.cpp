@@ -58,7 +58,7 @@ std::vector<std::vector<Sample>> samplesOf(const DepthImage& image,
     for (int u = 0; u < known.width(); ++u) {
       const KnownPixel& pixel = known.at(u, v);
       const double measured = image.depth_mm.at(u, v);
-      if (!pixel.inner || measured == 0.0 || pixel.cosine < kLeastErrorCosine) continue;
+      if (!pixel.inner() || measured == 0.0 || pixel.cosine < kLeastErrorCosine) continue;
       const auto part = static_cast<std::size_t>(pixel.part);
       if (!parts[part].counted) continue;
       Sample sample{u, v, measured - pixel.depth_mm, 0.0, pixel.cosine, {}};
@@ -169,6 +169,8 @@ void SurfaceErrorTally::add(const SurfaceErrorTally& other) {
   squares += other.squares;
   sizes += other.sizes;
   pixels += other.pixels;
+  deep_squares += other.deep_squares;
+  deep_pixels += other.deep_pixels;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pairs[i].half_squares += other.pairs[i].half_squares;
     pairs[i].mean_squares += other.pairs[i].mean_squares;
@@ -185,6 +187,10 @@ SurfaceErrorTally tallySurfaceErrors(const Image<float>& errors_mm, const KnownS
       tally.squares += error * error;
       tally.sizes += std::abs(error);
       ++tally.pixels;
+      if (known.at(u, v).inside_px >= kDeepPx) {
+        tally.deep_squares += error * error;
+        ++tally.deep_pixels;
+      }
       tallyFrom(errors_mm, known, {u, v}, {1, 0}, tally);
       tallyFrom(errors_mm, known, {u, v}, {0, 1}, tally);
     }

@@ -41,6 +41,8 @@ struct SurfaceErrorTally {
   double squares = 0.0;          ///< of e [mm^2]
   double sizes = 0.0;            ///< of e [mm]
   long long pixels = 0;
+  double deep_squares = 0.0;  ///< of e where it is kDeepPx or more inside [mm^2]
+  long long deep_pixels = 0;
   std::array<ErrorPairs, kErrorShiftsPx.size()> pairs;
 
   void add(const SurfaceErrorTally& other);

@@ -139,12 +139,13 @@ TEST(KnownSurface, InnerPixelsKeepOffContoursAndJumpsButNotCreases) {
   const Camera camera = test::scanCamera();
   const KnownSurface known = renderKnown({part}, camera);
   const int row = 120;
-  const auto inner = [&](int u) { return known.at(u, row).inner; };
+  const auto inner = [&](int u) { return known.at(u, row).inner(); };
   int first = 0;
   while (known.at(first, row).part < 0) ++first;
   EXPECT_FALSE(inner(first));
   EXPECT_FALSE(inner(first + 2));
   EXPECT_TRUE(inner(first + 3));
+  EXPECT_EQ(known.at(first + 12, row).inside_px, 12);
   int step = first;
   while (known.at(step + 1, row).depth_mm < 510.0f) ++step;
   EXPECT_TRUE(inner(step - 3));
@@ -157,7 +158,7 @@ TEST(KnownSurface, InnerPixelsKeepOffContoursAndJumpsButNotCreases) {
       {-60, -40, 30}, {-60, 40, 30}, {0, -40, 0}, {0, 40, 0}, {60, -40, 30}, {60, 40, 30}};
   roof.triangles = {{0, 3, 1}, {0, 2, 3}, {2, 5, 3}, {2, 4, 5}};
   part.mesh = &roof;
-  EXPECT_TRUE(renderKnown({part}, camera).at(160, row).inner);
+  EXPECT_TRUE(renderKnown({part}, camera).at(160, row).inner());
 }
 
 TEST(LostPixels, OfSteepSurfaceOnly) {

@@ -101,6 +101,23 @@ TEST(SurfaceErrors, WhatLiesOnAPartIsNoErrorOfTheSensor) {
   EXPECT_NEAR(measured(image, {plate.part()}).rms_mm, 0.1, 0.005);
 }
 
+TEST(SurfaceErrors, WhatASensorMakesOfContoursIsToldApart) {
+  const LeaningPlate plate;
+  DepthImage image = plate.scan();
+  test::addNoise(image, test::whiteNoise(320, 240, 5), 0.1);
+  const KnownSurface known = renderKnown({plate.part()}, image.camera);
+  for (int v = 0; v < known.height(); ++v) {
+    for (int u = 0; u < known.width(); ++u) {
+      if (known.at(u, v).part >= 0 && known.at(u, v).inside_px < kDeepPx) {
+        image.depth_mm.at(u, v) += (u + v) % 2 == 0 ? 2.0f : -2.0f;
+      }
+    }
+  }
+  const ScanStatistics figures = measured(image, {plate.part()});
+  EXPECT_GT(figures.rms_mm, 0.5);
+  EXPECT_NEAR(figures.deep_rms_mm, 0.1, 0.01);
+}
+
 TEST(SurfaceErrors, PartsThatDoNotCountOnlyHideOthers) {
   const LeaningPlate plate;
   const test::BlockOnFloor block;
