@@ -69,12 +69,12 @@ TEST(JumpProfiles, FatterPartsArePassedOutside) {
   }
 }
 
-TEST(JumpProfiles, FloorThatLeansIsNoSmear) {
+TEST(JumpProfiles, FloorThatFallsAwayIsNoSmear) {
   const ScanStatistics figures = ofBlock([](const glm::dvec2& px) {
-    return BlockOnFloor::ideal(px) + (BlockOnFloor::outside(px) > 0.0 ? 0.6 * px.x : 0.0);
+    return BlockOnFloor::ideal(px) + 1.5 * std::max(0.0, BlockOnFloor::outside(px));
   });
   EXPECT_GT(figures.profiles, 200);
-  EXPECT_LT(figures.smear_px, 0.1);
+  EXPECT_LT(figures.smear_px, 0.1) << "at the contour the floor is 77 % of what it is farther off";
 }
 
 TEST(JumpProfiles, HolesAreOnTheirSide) {

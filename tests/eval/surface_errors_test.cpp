@@ -101,6 +101,29 @@ TEST(SurfaceErrors, WhatLiesOnAPartIsNoErrorOfTheSensor) {
   EXPECT_NEAR(measured(image, {plate.part()}).rms_mm, 0.1, 0.005);
 }
 
+TEST(SurfaceErrors, FewBadPixelsDoNotMoveAPart) {
+  const LeaningPlate plate;
+  DepthImage image = plate.scan();
+  test::addNoise(image, test::whiteNoise(320, 240, 6), 0.1);
+  const auto isBad = [](int u, int v) { return u < 120 && v < 120; };
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 0; u < 120; ++u) image.depth_mm.at(u, v) -= 6.0f;
+  }
+  const KnownSurface known = renderKnown({plate.part()}, image.camera);
+  const Image<float> errors = surfaceErrors(image, known, {plate.part()});
+  double squares = 0.0;
+  int count = 0;
+  for (int v = 0; v < errors.height(); ++v) {
+    for (int u = 0; u < errors.width(); ++u) {
+      if (std::isnan(errors.at(u, v)) || isBad(u, v)) continue;
+      squares += static_cast<double>(errors.at(u, v)) * errors.at(u, v);
+      ++count;
+    }
+  }
+  EXPECT_GT(count, 15000);
+  EXPECT_NEAR(std::sqrt(squares / count), 0.1, 0.01);
+}
+
 TEST(SurfaceErrors, WhatASensorMakesOfContoursIsToldApart) {
   const LeaningPlate plate;
   DepthImage image = plate.scan();
