@@ -12,27 +12,14 @@ namespace {
 constexpr double kSmoothPx = 1.5;
 constexpr int kSmoothReachPx = 4;
 
-/// Levels of a jump are taken outside of these, its smear is looked for between them [px].
-constexpr int kNearLevelPx = -6;
-constexpr int kFarLevelPx = 8;
 /// What lies outside is judged by these [px].
 constexpr int kOutsideFromPx = 6;
 constexpr int kOutsideToPx = 14;
-constexpr int kLeastNear = 3;      ///< of 7
-constexpr int kLeastOutside = 5;   ///< of 9
-constexpr int kLeastBetween = 11;  ///< of 13
+constexpr int kLeastNear = 3;     ///< of 7
+constexpr int kLeastOutside = 5;  ///< of 9
 /// Between the quartiles of what is measured at the far level, and between its line's ends, as a
 /// share of the jump: no more.
 constexpr double kFarSpread = 0.25;
-
-constexpr double kSmearLow = 0.15;
-constexpr double kSmearHigh = 0.85;
-constexpr int kWideHolePx = 2;
-/// A hole belongs to a jump when it touches this stretch [px].
-constexpr int kHoleFromPx = -4;
-constexpr int kHoleToPx = 6;
-
-constexpr int stepAt(int place_px) { return place_px + kProfileInsidePx; }
 
 /// Of the values, by counting; the upper one of two in the middle.
 double quantile(std::vector<double>& values, double share) {
@@ -121,7 +108,7 @@ class Profiler {
     for (int place = -kProfileInsidePx; place <= kProfileOutsidePx; ++place) {
       const glm::ivec2 pixel = pixelAt(profile, place);
       const KnownPixel& known = known_.at(pixel.x, pixel.y);
-      const auto i = static_cast<std::size_t>(stepAt(place));
+      const auto i = static_cast<std::size_t>(profileStepAt(place));
       if (place <= 0 && known.part == profile.part) rim_mm = known.depth_mm;
       profile.near_mm[i] = rim_mm;
       if (place > kNearLevelPx || known.part != profile.part) continue;
@@ -144,7 +131,7 @@ class Profiler {
       const glm::ivec2 pixel = pixelAt(profile, place);
       const KnownPixel& known = known_.at(pixel.x, pixel.y);
       if (known.part >= 0 && known.depth_mm < behind) return false;
-      const auto i = static_cast<std::size_t>(stepAt(place));
+      const auto i = static_cast<std::size_t>(profileStepAt(place));
       const double measured = profile.measured_mm[i];
       if (measured == 0.0) continue;
       if (place >= kOutsideFromPx && place <= kOutsideToPx) outside.push_back(measured);
@@ -187,59 +174,6 @@ class Profiler {
   const std::vector<KnownPart>& parts_;
 };
 
-/// Where half of the jump is passed first, seen from inside; nothing where a hole hides the place.
-std::optional<double> passingPx(const JumpProfile& profile) {
-  int inside = -1;
-  for (int step = stepAt(kNearLevelPx); step <= stepAt(kFarLevelPx); ++step) {
-    const double fraction = profile.fraction(step);
-    if (std::isnan(fraction)) continue;
-    if (fraction < 0.5) {
-      inside = step;
-      continue;
-    }
-    constexpr int kLargestGap = 2;
-    if (inside < 0 || step - inside > kLargestGap) return {};
-    const double before = profile.fraction(inside);
-    const double from = profile.place_px[static_cast<std::size_t>(inside)];
-    const double to = profile.place_px[static_cast<std::size_t>(step)];
-    return from + (0.5 - before) / (fraction - before) * (to - from);
-  }
-  return {};
-}
-
-void tallySmear(const JumpProfile& profile, JumpTally& tally) {
-  int measured = 0;
-  int smeared = 0;
-  for (int step = stepAt(kNearLevelPx) + 1; step < stepAt(kFarLevelPx); ++step) {
-    const double fraction = profile.fraction(step);
-    measured += std::isnan(fraction) ? 0 : 1;
-    smeared += fraction > kSmearLow && fraction < kSmearHigh ? 1 : 0;
-  }
-  if (measured < kLeastBetween) return;
-  const std::optional<double> passing = passingPx(profile);
-  if (!passing) return;
-  ++tally.profiles;
-  tally.smeared_px += smeared;
-  tally.sides[static_cast<std::size_t>(profile.side())].passing_px.push_back(
-      static_cast<float>(*passing));
-}
-
-/// The longest run without depth of those that touch the contour's surroundings [px].
-int holePx(const JumpProfile& profile) {
-  int longest = 0;
-  int begin = 0;
-  for (int step = 0; step <= kProfileSteps; ++step) {
-    const bool missing =
-        step < kProfileSteps && profile.measured_mm[static_cast<std::size_t>(step)] == 0.0f;
-    if (missing) continue;
-    if (begin <= stepAt(kHoleToPx) && step - 1 >= stepAt(kHoleFromPx)) {
-      longest = std::max(longest, step - begin);
-    }
-    begin = step + 1;
-  }
-  return longest;
-}
-
 }  // namespace
 
 ContourSide JumpProfile::side() const {
@@ -266,38 +200,6 @@ std::vector<JumpProfile> jumpProfiles(const DepthImage& image,
     }
   }
   return profiles;
-}
-
-void JumpTally::add(const JumpTally& other) {
-  const auto append = [](std::vector<float>& all, const std::vector<float>& more) {
-    all.insert(all.end(), more.begin(), more.end());
-  };
-  profiles += other.profiles;
-  smeared_px += other.smeared_px;
-  for (std::size_t side = 0; side < sides.size(); ++side) {
-    sides[side].profiles += other.sides[side].profiles;
-    sides[side].hole_px += other.sides[side].hole_px;
-    sides[side].wide_holes += other.sides[side].wide_holes;
-    append(sides[side].passing_px, other.sides[side].passing_px);
-  }
-  for (std::size_t i = 0; i < fractions.size(); ++i) append(fractions[i], other.fractions[i]);
-}
-
-JumpTally tallyJumps(const std::vector<JumpProfile>& profiles) {
-  JumpTally tally;
-  for (const JumpProfile& profile : profiles) {
-    tallySmear(profile, tally);
-    SideTally& side = tally.sides[static_cast<std::size_t>(profile.side())];
-    const int hole = holePx(profile);
-    ++side.profiles;
-    side.hole_px += hole;
-    side.wide_holes += hole >= kWideHolePx ? 1 : 0;
-    for (std::size_t i = 0; i < kProfilePlacesPx.size(); ++i) {
-      const double fraction = profile.fraction(stepAt(kProfilePlacesPx[i]));
-      if (!std::isnan(fraction)) tally.fractions[i].push_back(static_cast<float>(fraction));
-    }
-  }
-  return tally;
 }
 
 }  // namespace rangepose

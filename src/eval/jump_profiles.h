@@ -7,7 +7,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <vector>
 
 #include "core/camera.h"
@@ -19,6 +18,13 @@ inline constexpr double kJumpMm = 15.0;
 inline constexpr int kProfileInsidePx = 12;
 inline constexpr int kProfileOutsidePx = 16;
 inline constexpr int kProfileSteps = kProfileInsidePx + kProfileOutsidePx + 1;
+/// The depths on both sides of a jump are taken from what is measured outside of these places, what
+/// becomes of the jump is seen between them [px].
+inline constexpr int kNearLevelPx = -6;
+inline constexpr int kFarLevelPx = 8;
+
+/// The step of a profile at a place [px].
+constexpr int profileStepAt(int place_px) { return place_px + kProfileInsidePx; }
 
 enum class ContourSide { kLeft, kRight, kTop, kBottom };  ///< of the part; within 45 degrees
 
@@ -45,28 +51,5 @@ struct JumpProfile {
 std::vector<JumpProfile> jumpProfiles(const DepthImage& image,
                                       const KnownSurface& known,
                                       const std::vector<KnownPart>& parts);
-
-/// Where along the profiles depth itself is told [px].
-inline constexpr std::array<int, 9> kProfilePlacesPx = {-6, -4, -2, -1, 0, 1, 2, 4, 6};
-
-/// Of the profiles on one side of the parts.
-struct SideTally {
-  long long profiles = 0;
-  long long hole_px = 0;     ///< the longest run of pixels without depth that is at the contour
-  long long wide_holes = 0;  ///< profiles where that is 2 px or longer
-  std::vector<float> passing_px;  ///< of profiles with few holes: where half of the jump is passed
-};
-
-struct JumpTally {
-  long long profiles = 0;          ///< with few holes: the next is of these
-  long long smeared_px = 0;        ///< steps that are between 15 and 85 % of the jump
-  std::array<SideTally, 4> sides;  ///< by ContourSide
-  /// What JumpProfile::fraction() gives at each of kProfilePlacesPx, where there is depth.
-  std::array<std::vector<float>, kProfilePlacesPx.size()> fractions;
-
-  void add(const JumpTally& other);
-};
-
-JumpTally tallyJumps(const std::vector<JumpProfile>& profiles);
 
 }  // namespace rangepose

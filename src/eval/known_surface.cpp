@@ -35,7 +35,7 @@ void draw(const KnownPart& part, int index, const Camera& camera, KnownSurface& 
       const glm::dvec3 normal(texel);
       const glm::dvec3 ray = glm::normalize(rayOf(camera, window.x0 + x, window.y0 + y));
       const double cosine = std::clamp(-glm::dot(normal, ray), 0.0, 1.0);
-      pixel = {index, texel.w, glm::vec3(normal), static_cast<float>(cosine), false};
+      pixel = {index, texel.w, glm::vec3(normal), static_cast<float>(cosine), 0};
     }
   }
 }
@@ -83,14 +83,28 @@ Image<char> borders(const KnownSurface& known,
   return border;
 }
 
-bool noneNear(const Image<char>& border, int u, int v) {
-  constexpr int kReach = kInnerPx - 1;
-  for (int y = v - kReach; y <= v + kReach; ++y) {
-    for (int x = u - kReach; x <= u + kReach; ++x) {
-      if (border.contains(x, y) && border.at(x, y) != 0) return false;
+/// Distances to the nearest border, as KnownPixel::inside_px: one sweep forward, one back.
+void fillInside(const Image<char>& border, KnownSurface& known) {
+  const int width = known.width();
+  const int height = known.height();
+  const auto shorten = [&](int u, int v, int sign) {
+    int& inside = known.at(u, v).inside_px;
+    for (const glm::ivec2& step : {glm::ivec2(-1, -1), {0, -1}, {1, -1}, {-1, 0}}) {
+      const glm::ivec2 near = glm::ivec2(u, v) + sign * step;
+      if (known.contains(near.x, near.y)) {
+        inside = std::min(inside, known.at(near.x, near.y).inside_px + 1);
+      }
+    }
+  };
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      known.at(u, v).inside_px = border.at(u, v) != 0 ? 0 : width + height;
+      shorten(u, v, 1);
     }
   }
-  return true;
+  for (int v = height - 1; v >= 0; --v) {
+    for (int u = width - 1; u >= 0; --u) shorten(u, v, -1);
+  }
 }
 
 }  // namespace
@@ -108,13 +122,7 @@ KnownSurface renderKnown(const std::vector<KnownPart>& parts, const Camera& came
   for (std::size_t i = 0; i < parts.size(); ++i) {
     draw(parts[i], static_cast<int>(i), camera, known);
   }
-  const Image<char> border = borders(known, parts, camera);
-  for (int v = 0; v < known.height(); ++v) {
-    for (int u = 0; u < known.width(); ++u) {
-      KnownPixel& pixel = known.at(u, v);
-      pixel.inner = pixel.part >= 0 && noneNear(border, u, v);
-    }
-  }
+  fillInside(borders(known, parts, camera), known);
   return known;
 }
 

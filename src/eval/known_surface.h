@@ -24,12 +24,20 @@ struct KnownPixel {
   float depth_mm = 0.0f;   ///< along z
   glm::vec3 normal{0.0f};  ///< unit length, in the camera frame, towards the camera
   float cosine = 0.0f;     ///< of the angle between the normal and the ray, 0..1
-  bool inner = false;      ///< kInnerPx or more inside of any contour or jump of the known depth
+  int inside_px = 0;       ///< from there to the nearest pixel beside a contour or a jump of the
+                           ///< known depth: the larger of columns and rows between them
+
+  bool inner() const;
 };
 
 using KnownSurface = Image<KnownPixel>;
 
+/// Pixels nearer to a contour or a jump are not compared.
 inline constexpr int kInnerPx = 3;
+/// Further inside than this what a sensor makes of jumps is not seen any more.
+inline constexpr int kDeepPx = 9;
+
+inline bool KnownPixel::inner() const { return part >= 0 && inside_px >= kInnerPx; }
 
 /// A measurement this far from the surface, along its normal, may still be one of it [mm].
 double agreementMm(const KnownPart& part);

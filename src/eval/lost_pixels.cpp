@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace rangepose {
 namespace {
@@ -45,7 +46,7 @@ LostTally tallyLost(const DepthImage& image,
       if (!isCounted(pixel, parts) || isHidden(pixel, measured, parts)) continue;
       const LostShare one{1, measured == 0.0 ? 1 : 0};
       tally.silhouettes.add(one);
-      if (!pixel.inner) continue;
+      if (!pixel.inner()) continue;
       const double bins = static_cast<double>(tally.by_slant.size());
       const double slant = std::acos(static_cast<double>(pixel.cosine)) / (0.5 * std::numbers::pi);
       tally.by_slant[static_cast<std::size_t>(std::min(bins * slant, bins - 1.0))].add(one);
@@ -60,20 +61,26 @@ void DepthSteps::add(const DepthSteps& other) {
 }
 
 double DepthSteps::commonStepMm() const {
-  constexpr long long kLargestUm = 20000;
+  constexpr int kLargestUm = 10000;
   constexpr double kOthers = 0.05;
-  double all = 0.0;
-  for (const auto& [depth_um, count] : counts) all += static_cast<double>(count);
   if (counts.empty()) return std::numeric_limits<double>::quiet_NaN();
-  for (long long step_um = kLargestUm; step_um > 1; --step_um) {
+  std::vector<std::pair<long long, long long>> values(counts.begin(), counts.end());
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) {
+    return a.second > b.second;  // the frequent ones first: they settle it sooner
+  });
+  double all = 0.0;
+  for (const auto& [depth_um, count] : values) all += static_cast<double>(count);
+  const auto isCommon = [&](int step_um) {
     double others = 0.0;
-    for (const auto& [depth_um, count] : counts) {
-      if (depth_um % step_um != 0) others += static_cast<double>(count);
-      if (others > kOthers * all) break;
+    for (const auto& [depth_um, count] : values) {
+      others += depth_um % step_um == 0 ? 0.0 : static_cast<double>(count);
+      if (others > kOthers * all) return false;
     }
-    if (others <= kOthers * all) return 1e-3 * static_cast<double>(step_um);
-  }
-  return 1e-3;
+    return true;
+  };
+  int step_um = kLargestUm;
+  while (!isCommon(step_um)) --step_um;
+  return 1e-3 * step_um;
 }
 
 DepthSteps depthSteps(const DepthImage& image,
@@ -87,7 +94,7 @@ DepthSteps depthSteps(const DepthImage& image,
       if (measured == 0.0f) continue;
       ++steps.counts[std::llround(1000.0 * measured)];
       const KnownPixel& pixel = known.at(u, v);
-      if (!pixel.inner || !isCounted(pixel, parts)) continue;
+      if (!pixel.inner() || !isCounted(pixel, parts)) continue;
       const double off = std::abs(measured - pixel.depth_mm) * pixel.cosine;
       if (off <= agreementMm(parts[static_cast<std::size_t>(pixel.part)])) {
         values.push_back(measured);

@@ -38,7 +38,7 @@ struct DepthSteps {
   std::vector<float> gaps_mm;  ///< between neighbours among the values of an image on counted parts
 
   void add(const DepthSteps& other);
-  /// The largest step of which all but few depth values are multiples, up to 20 mm; 0.001 mm where
+  /// The largest step of which 95 % of the depth values are multiples, up to 10 mm; 0.001 mm where
   /// there is none, NaN without values.
   double commonStepMm() const;
 };

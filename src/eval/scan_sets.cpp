@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <map>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -25,6 +26,13 @@ struct ScanJob {
   std::vector<BopTruth> truths;
 };
 
+std::map<int, std::vector<BopTruth>> ownTruth(const BopScene& scene) {
+  const std::filesystem::path path = scene.folder / "scene_gt.json";
+  std::error_code failure;
+  if (std::filesystem::exists(path, failure)) return readBopTruth(scene.folder);
+  throw Error(fmt::format("truth {}: no such file; name one by --truth", path.string()));
+}
+
 /// Images with poses.
 std::vector<ScanJob> jobsOf(const BopDataset& data, const ScanSet& set) {
   if (set.truth && data.scenes.size() > 1) {
@@ -36,7 +44,7 @@ std::vector<ScanJob> jobsOf(const BopDataset& data, const ScanSet& set) {
   std::vector<ScanJob> jobs;
   for (const BopScene& scene : data.scenes) {
     const std::map<int, std::vector<BopTruth>> truths =
-        set.truth ? readBopTruthFile(*set.truth) : readBopTruth(scene.folder);
+        set.truth ? readBopTruthFile(*set.truth) : ownTruth(scene);
     for (const BopImage& image : scene.images) {
       const auto found = truths.find(image.im_id);
       if (found != truths.end() && !found->second.empty()) jobs.push_back({&image, found->second});

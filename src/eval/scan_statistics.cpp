@@ -24,6 +24,7 @@ void fillErrors(const SurfaceErrorTally& tally, ScanStatistics& figures) {
   figures.pixels = tally.pixels;
   figures.noise_mm = noiseBetweenNeighbours(tally.second_mm);
   figures.rms_mm = std::sqrt(ratio(tally.squares, tally.pixels));
+  figures.deep_rms_mm = std::sqrt(ratio(tally.deep_squares, tally.deep_pixels));
   figures.mean_size_mm = ratio(tally.sizes, tally.pixels);
   for (std::size_t i = 0; i < tally.pairs.size(); ++i) {
     const ErrorPairs& pairs = tally.pairs[i];

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "eval/jump_profiles.h"
+#include "eval/jump_tally.h"
 #include "eval/lost_pixels.h"
 #include "eval/surface_errors.h"
 #include "io/bop.h"
@@ -59,6 +59,7 @@ struct ScanStatistics {
   /// e is measured minus known depth, less the small motion of the part that explains most of it.
   double rms_mm = 0.0;        ///< of e
   double mean_size_mm = 0.0;  ///< of e
+  double deep_rms_mm = 0.0;   ///< of e, kDeepPx or more inside of contours and jumps
   /// D(L) = sqrt(mean of 0.5 (e(p) - e(p+L))^2), for each of kErrorShiftsPx, pairs along rows and
   /// columns on the same part [mm].
   std::array<double, kErrorShiftsPx.size()> difference_mm{};
@@ -86,7 +87,7 @@ struct ScanSet {
   std::filesystem::path folder;
   std::string split = "test";
   /// In the format of scene_gt.json; else each scene has its own.
-  std::optional<std::filesystem::path> truth;
+  std::optional<std::filesystem::path> truth = std::nullopt;
 };
 
 /// Measures all images with known poses; parts that scene_gt_info.json gives as less than half

@@ -22,6 +22,8 @@ void addErrorRows(const ScanStatistics& set, std::vector<Row>& rows) {
   rows.push_back({"median gap between depth values [mm]", set.gap_mm, 3});
   rows.push_back({"error: rms [mm]", set.rms_mm, 3});
   rows.push_back({"error: mean size [mm]", set.mean_size_mm, 3});
+  rows.push_back(
+      {fmt::format("error: rms {} px or more inside [mm]", kDeepPx), set.deep_rms_mm, 3});
   for (std::size_t i = 0; i < kErrorShiftsPx.size(); ++i) {
     rows.push_back({fmt::format("error: differs {} px off by [mm]", kErrorShiftsPx[i]),
                     set.difference_mm[i],
@@ -73,7 +75,9 @@ std::vector<Row> rowsOf(const ScanStatistics& set) {
 }
 
 std::string cell(const Row& row) {
-  return std::isnan(row.value) ? "-" : fmt::format("{:.{}f}", row.value, row.decimals);
+  if (std::isnan(row.value)) return "-";
+  const bool zero = std::abs(row.value) < 0.5 * std::pow(10.0, -row.decimals);  // not "-0"
+  return fmt::format("{:.{}f}", zero ? 0.0 : row.value, row.decimals);
 }
 
 std::string title(const ScanStatistics& set) {
@@ -83,11 +87,12 @@ std::string title(const ScanStatistics& set) {
 constexpr const char* kLegend = R"(
 Error: measured less true depth, along z, after the small motion of each part that explains most of
 it was taken out; inner pixels that agree with the pose, seen by 60 deg or less. Noise: from second
-differences along rows and columns, their smallest 90 %. Differs L px off by: root of half the mean
-squared difference of errors. Jumps: profiles across contours with 15 mm or more behind them;
-smeared: pixels between 15 and 85 % of the jump; half passed at: positive outside of the true
-contour. Hole: the longest run of pixels without depth at the contour. Lost: visible inner pixels
-without depth.
+differences along rows and columns, cut off at three deviations. Differs L px off by: root of half
+the mean squared difference of errors. Jumps: profiles across contours of parts with something
+measured 15 mm or more behind; smeared: pixels between 15 and 85 % of the jump; half passed at:
+positive outside of the true contour, both of profiles with at most two pixels missing; depth:
+median, where there is some. Hole: the longest run of pixels without depth at the contour. Lost:
+visible inner pixels without depth.
 )";
 
 }  // namespace

@@ -20,9 +20,15 @@ constexpr double kTrim = 3.0;
 constexpr double kLeastTrimMm = 0.1;
 constexpr double kDeviationOfMedian = 1.4826;
 
-constexpr double kKeptShare = 0.9;
-/// Of the smallest 90 % of a normal distribution: sqrt(1 - 2 t p(t) / 0.9) at t = 1.644854.
-constexpr double kKeptRms = 0.789313;
+/// Second differences are cut off at so many of their own deviations, round by round; where these
+/// begin: the rms of the smallest 90 %, which is that of a normal distribution so cut off.
+constexpr double kCut = 3.0;
+constexpr int kCutRounds = 20;
+constexpr double kFirstShare = 0.9;
+/// rms of what is left of a normal distribution of deviation 1 that is cut off at +-t: sqrt(1 - 2 t
+/// p(t) / share), for t = 3, and for the t that leaves 90 %.
+constexpr double kCutRms = 0.986578;
+constexpr double kFirstRms = 0.789313;
 
 using Motion = NormalEquations<6>::Row;
 
@@ -52,7 +58,7 @@ std::vector<std::vector<Sample>> samplesOf(const DepthImage& image,
     for (int u = 0; u < known.width(); ++u) {
       const KnownPixel& pixel = known.at(u, v);
       const double measured = image.depth_mm.at(u, v);
-      if (!pixel.inner || measured == 0.0 || pixel.cosine < kLeastErrorCosine) continue;
+      if (!pixel.inner() || measured == 0.0 || pixel.cosine < kLeastErrorCosine) continue;
       const auto part = static_cast<std::size_t>(pixel.part);
       if (!parts[part].counted) continue;
       Sample sample{u, v, measured - pixel.depth_mm, 0.0, pixel.cosine, {}};
@@ -163,6 +169,8 @@ void SurfaceErrorTally::add(const SurfaceErrorTally& other) {
   squares += other.squares;
   sizes += other.sizes;
   pixels += other.pixels;
+  deep_squares += other.deep_squares;
+  deep_pixels += other.deep_pixels;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pairs[i].half_squares += other.pairs[i].half_squares;
     pairs[i].mean_squares += other.pairs[i].mean_squares;
@@ -179,6 +187,10 @@ SurfaceErrorTally tallySurfaceErrors(const Image<float>& errors_mm, const KnownS
       tally.squares += error * error;
       tally.sizes += std::abs(error);
       ++tally.pixels;
+      if (known.at(u, v).inside_px >= kDeepPx) {
+        tally.deep_squares += error * error;
+        ++tally.deep_pixels;
+      }
       tallyFrom(errors_mm, known, {u, v}, {1, 0}, tally);
       tallyFrom(errors_mm, known, {u, v}, {0, 1}, tally);
     }
@@ -187,14 +199,21 @@ SurfaceErrorTally tallySurfaceErrors(const Image<float>& errors_mm, const KnownS
 }
 
 double noiseBetweenNeighbours(std::vector<float> second_mm) {
-  const auto kept = static_cast<std::size_t>(kKeptShare * static_cast<double>(second_mm.size()));
-  if (kept == 0) return std::numeric_limits<double>::quiet_NaN();
+  if (second_mm.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(second_mm.begin(), second_mm.end());
-  double squares = 0.0;
-  for (std::size_t i = 0; i < kept; ++i) {
-    squares += static_cast<double>(second_mm[i]) * second_mm[i];
+  std::vector<double> squares{0.0};  // of so many of the smallest
+  for (const double second : second_mm) squares.push_back(squares.back() + second * second);
+  const auto rmsOf = [&squares](std::size_t count) {
+    return std::sqrt(squares[count] / static_cast<double>(std::max<std::size_t>(count, 1)));
+  };
+  const auto count = static_cast<double>(second_mm.size());
+  double deviation = rmsOf(static_cast<std::size_t>(kFirstShare * count)) / kFirstRms;
+  for (int round = 0; round < kCutRounds; ++round) {
+    const auto end =
+        std::upper_bound(second_mm.begin(), second_mm.end(), static_cast<float>(kCut * deviation));
+    deviation = rmsOf(static_cast<std::size_t>(end - second_mm.begin())) / kCutRms;
   }
-  return std::sqrt(squares / static_cast<double>(kept)) / kKeptRms / std::sqrt(6.0);
+  return deviation / std::sqrt(6.0);
 }
 
 }  // namespace rangepose

@@ -41,6 +41,8 @@ struct SurfaceErrorTally {
   double squares = 0.0;          ///< of e [mm^2]
   double sizes = 0.0;            ///< of e [mm]
   long long pixels = 0;
+  double deep_squares = 0.0;  ///< of e where it is kDeepPx or more inside [mm^2]
+  long long deep_pixels = 0;
   std::array<ErrorPairs, kErrorShiftsPx.size()> pairs;
 
   void add(const SurfaceErrorTally& other);
@@ -48,9 +50,9 @@ struct SurfaceErrorTally {
 
 SurfaceErrorTally tallySurfaceErrors(const Image<float>& errors_mm, const KnownSurface& known);
 
-/// Deviation of the noise from sizes of second differences [mm]: the rms of the smallest 90 %, over
-/// that of a normal distribution so cut off, over sqrt(6). Unlike a median it does not fall to zero
-/// where depth comes in steps. NaN without one.
+/// Deviation of the noise from sizes of second differences [mm]: their rms, cut off at three
+/// deviations round by round, over sqrt(6). Unlike a median it does not fall to zero where depth
+/// comes in steps. NaN without one.
 double noiseBetweenNeighbours(std::vector<float> second_mm);
 
 }  // namespace rangepose

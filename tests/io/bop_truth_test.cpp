@@ -44,6 +44,18 @@ TEST(BopTruth, VisibilityMayBeMissing) {
   EXPECT_FALSE(readBopTruth(folder.path()).at(12)[0].visible_fraction.has_value());
 }
 
+TEST(BopTruth, AFileOfAnyNameIsTruth) {
+  const TempFolder folder;
+  const auto path = folder.write("poses.json", kTruth);
+  folder.write("scene_gt_info.json", "{}");
+  const auto truth = readBopTruthFile(path);
+  ASSERT_EQ(truth.at(12).size(), 2u);
+  EXPECT_EQ(truth.at(12)[1].obj_id, 2);
+  EXPECT_FALSE(truth.at(12)[1].visible_fraction.has_value());
+  EXPECT_THAT(errorOf([&] { readBopTruthFile(folder.path() / "none.json"); }),
+              AllOf(HasSubstr("none.json"), HasSubstr("no such file")));
+}
+
 TEST(BopTruth, DamageIsNamed) {
   const TempFolder folder;
   const auto failure = [&folder] { return errorOf([&] { readBopTruth(folder.path()); }); };

@@ -20,8 +20,9 @@ average precision, and the scores of the BOP challenge. With --paper virtual bin
 bolts and elbows are emptied one by one, and the tables of the paper are printed with its figures
 beside ours; the models are t_pipe.ply, bolt.ply and elbow.ply of the folder. Each part is a
 trial: the one nearest to the pose is taken out, right or wrong; the others stay where they are.
-With --scans depth images are measured where the poses of parts are known: noise, error, what becomes
-of jumps of depth, and lost pixels, a column a data set; so real scans and simulated ones compare.
+With --scans depth images are measured where the poses of parts are known: noise, error, what
+becomes of jumps of depth, and lost pixels, a column a data set, so that real and simulated scans
+can be compared.
 
 Examples:
   rangepose evaluate --bop bins --csv results.csv
