@@ -27,7 +27,8 @@ PoseGrade gradePose(const ErrorModel& model, const BinScan& scan, const std::opt
   grade.vertex = nearest_mm / model.diagonalMm();
   grade.right = grade.vertex < kRightVertexError;
   const glm::dvec3& center = model.sphere().center_mm;
-  grade.center = glm::distance(*pose * center, truth * center) / model.diagonalMm();
+  const Pose copy = nearestCopy(model, *pose, truth);
+  grade.center = glm::distance(*pose * center, copy * center) / model.diagonalMm();
   grade.rotation_rad = rotationErrorRad(model, *pose, truth);
   grade.euler_rad = eulerErrorRad(model, *pose, truth);
   return grade;

@@ -104,7 +104,8 @@ Closest closestCopy(const ErrorModel& model,
                     const Error& error) {
   Closest best;
   if (isSphere(model.symmetries())) {
-    best.copy = turnedLike(estimate, truth, model.symmetries().continuous.front().point_mm);
+    best.copy = turnedLike(
+        estimate, truth, fixedPoint(model.symmetries().continuous, model.sphere().center_mm));
     best.error = error(best.copy, kNoLimit);
     return best;
   }

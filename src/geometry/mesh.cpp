@@ -76,16 +76,6 @@ Mesh cleaned(const Mesh& mesh) {
   return result;
 }
 
-Sphere boundingSphere(const Mesh& mesh) {
-  const Bounds box = bounds(mesh);
-  Sphere sphere{0.5 * (box.low + box.high), 0.0};
-  for (const glm::vec3& vertex : mesh.vertices) {
-    sphere.radius_mm =
-        std::max(sphere.radius_mm, glm::distance(glm::dvec3(vertex), sphere.center_mm));
-  }
-  return sphere;
-}
-
 double diameter(const Mesh& mesh) {
   // A vertex can only be an end of the diameter if it is farther from the centre than the best
   // half-length known: that leaves few of a large mesh to be paired.
@@ -114,6 +104,11 @@ double diameter(const Mesh& mesh) {
     }
   }
   return best;
+}
+
+glm::dvec3 boundingBoxCenter(const Mesh& mesh) {
+  const Bounds box = bounds(mesh);
+  return 0.5 * (box.low + box.high);
 }
 
 double boundingBoxDiagonal(const Mesh& mesh) {

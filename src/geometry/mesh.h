@@ -28,11 +28,16 @@ void checkMesh(const Mesh& mesh);
 /// Removes triangles without area and vertices that no triangle uses.
 Mesh cleaned(const Mesh& mesh);
 
-/// A sphere around all vertices: the smallest one about the centre of the bounding box.
+/// The smallest sphere around all vertices. A rotation that maps them onto themselves leaves its
+/// centre in place. The radius is the distance of the farthest vertex from the centre, so that none
+/// is outside by rounding.
 Sphere boundingSphere(const Mesh& mesh);
 
 /// The largest distance between two vertices [mm] (BOP's "diameter").
 double diameter(const Mesh& mesh);
+
+/// Centre of the axis-parallel bounding box [mm]: amid the part, but not where its symmetries are.
+glm::dvec3 boundingBoxCenter(const Mesh& mesh);
 
 /// Length of the diagonal of the axis-parallel bounding box [mm] (the paper's error unit).
 double boundingBoxDiagonal(const Mesh& mesh);

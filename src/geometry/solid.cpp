@@ -88,7 +88,7 @@ bool isSolid(const Mesh& mesh) {
       parent[rootOf(parent, weld[triangle[k]])] = rootOf(parent, weld[triangle[0]]);
   }
   // Volumes of the pyramids over the triangles, from a point that is near all of them.
-  const glm::dvec3 origin = boundingSphere(mesh).center_mm;
+  const glm::dvec3 origin = boundingBoxCenter(mesh);
   std::vector<double> volume(mesh.vertices.size(), 0.0);
   for (const glm::uvec3& triangle : mesh.triangles) {
     const TriangleCorners corners(mesh, triangle);

@@ -25,8 +25,9 @@ std::vector<Pose> roundPoses(const Symmetries& symmetries, double angle_rad) {
     // Neighbours of n even rotations are about (8 pi^2 / n)^(1/3) rad apart.
     const double count = std::min(kMostOfSphere, 8.0 * kPi * kPi / std::pow(angle_rad, 3.0));
     poses.emplace_back();
+    const glm::dvec3 centre = fixedPoint(symmetries.continuous, axis.point_mm);
     for (const glm::dmat3& rotation : uniformRotations(std::max(1, static_cast<int>(count)))) {
-      poses.push_back(aboutPoint(rotation, axis.point_mm));
+      poses.push_back(aboutPoint(rotation, centre));
     }
     return poses;
   }
@@ -57,6 +58,19 @@ std::string symmetryName(const Symmetries& symmetries) {
     largest = std::max(largest, orderOf(pose.rotation, size));
   }
   return groupName(symmetries.discrete.size() + 1, largest);
+}
+
+glm::dvec3 fixedPoint(const std::vector<SymmetryAxis>& axes, const glm::dvec3& near_mm) {
+  // The least sum of squared distances to the axes, and, where these leave it open, to `near_mm`.
+  constexpr double kPull = 1e-9;
+  glm::dmat3 matrix(kPull);
+  glm::dvec3 right(0.0);
+  for (const SymmetryAxis& axis : axes) {
+    const glm::dmat3 across = glm::dmat3(1.0) - glm::outerProduct(axis.direction, axis.direction);
+    matrix += across;
+    right += across * (axis.point_mm - near_mm);
+  }
+  return near_mm + glm::inverse(matrix) * right;
 }
 
 std::vector<Pose> symmetricPoses(const Symmetries& symmetries, double radius_mm, double step_mm) {

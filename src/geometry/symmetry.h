@@ -44,6 +44,10 @@ Symmetries findSymmetries(const Mesh& mesh, const SymmetryOptions& options = {})
 /// "none", "C2", "D6", "T", "O", "I"; "revolution", "revolution, ends alike", "sphere".
 std::string symmetryName(const Symmetries& symmetries);
 
+/// The point that all turns about the axes leave in place: of one axis that nearest to `near_mm`,
+/// of several, as a sphere has, where they meet. Without an axis `near_mm`.
+glm::dvec3 fixedPoint(const std::vector<SymmetryAxis>& axes, const glm::dvec3& near_mm);
+
 /// All poses of the object that look alike, the identity first. Continuous ones are sampled such
 /// that no point within `radius_mm` of the axis moves by more than `step_mm` from one to the next;
 /// a sphere's are spread evenly over all rotations, at most 4,096.

@@ -10,7 +10,7 @@ namespace rangepose {
 
 /// Mean distance of a few points of the object in two poses, as a share of its diameter: the
 /// smallest over all symmetric copies of one of them. For a solid of revolution only the course of
-/// its axis counts, for a sphere only its centre.
+/// its axis counts, for a sphere only its centre. The symmetries may be any, and about any point.
 class PoseDistance {
  public:
   explicit PoseDistance(const ReferenceObject& object);
@@ -20,13 +20,14 @@ class PoseDistance {
 
  private:
   friend class PoseList;
-  /// Centres of poses that are that close are no farther apart [mm].
-  double centersWithinMm(double limit) const;
+  /// Where poses are that close, their middles are no farther apart [mm].
+  double middlesWithinMm(double limit) const;
 
-  glm::dvec3 center_mm_;
+  glm::dvec3 middle_mm_;  ///< the mean of the points, which the symmetries leave in place
   double diameter_mm_;
   std::vector<glm::dvec3> points_mm_;
   std::vector<std::vector<glm::dvec3>> copies_mm_;  ///< the points in each symmetric copy
+  double most_moved_mm_ = 0.0;  ///< the middle by a symmetry: by what that is inexact
 };
 
 /// Poses of one object, none of which is to be like another.
@@ -40,7 +41,7 @@ class PoseList {
  private:
   PoseDistance distance_;
   std::vector<Pose> poses_;
-  std::vector<glm::dvec3> centers_mm_;
+  std::vector<glm::dvec3> middles_mm_;
 };
 
 }  // namespace rangepose

@@ -77,7 +77,7 @@ Moments momentsOf(const Mesh& mesh, const glm::dvec3& origin) {
 
 /// For surfaces with holes.
 SolidMass hullMass(const Mesh& mesh, const ConvexHull& hull) {
-  const glm::dvec3 origin = boundingSphere(mesh).center_mm;
+  const glm::dvec3 origin = boundingBoxCenter(mesh);
   Moments moments;
   for (const std::array<glm::dvec3, 3>& face : hull.triangles) {
     moments.add(face[0] - origin, face[1] - origin, face[2] - origin);
@@ -89,7 +89,7 @@ SolidMass hullMass(const Mesh& mesh, const ConvexHull& hull) {
 
 SolidMass solidMass(const Mesh& mesh) {
   checkMesh(mesh);
-  const glm::dvec3 origin = boundingSphere(mesh).center_mm;
+  const glm::dvec3 origin = boundingBoxCenter(mesh);
   return massFrom(momentsOf(mesh, origin), origin, mesh.name);
 }
 

@@ -166,6 +166,28 @@ TEST(SymmetricPosesTest, ListsTheFiniteGroup) {
   EXPECT_EQ(symmetricPoses({}, 10.0, 1.0).size(), 1u);
 }
 
+// Axes from files go through any of their points: those of a ball need not name its centre.
+TEST(FixedPointTest, IsWhereTheAxesMeetOrTheNearestOfOne) {
+  const glm::dvec3 centre(3.0, -4.0, 9.0);
+  const glm::dvec3 near(40.0, 2.0, -7.0);
+  EXPECT_EQ(fixedPoint({}, near), near);
+  std::vector<SymmetryAxis> axes;
+  for (const glm::dvec3& along : {glm::dvec3(1, 2, 2), glm::dvec3(2, 1, -2), glm::dvec3(0, 0, 1)}) {
+    const glm::dvec3 direction = glm::normalize(along);
+    axes.push_back({direction, centre + 70.0 * static_cast<double>(axes.size() + 1) * direction});
+    if (axes.size() > 1) {
+      EXPECT_LT(glm::distance(fixedPoint(axes, near), centre), 1e-4);
+      continue;
+    }
+    const glm::dvec3 expected = centre + glm::dot(near - centre, direction) * direction;
+    EXPECT_LT(glm::distance(fixedPoint(axes, near), expected), 1e-4);
+  }
+  // So all copies of a ball have its centre where it is.
+  for (const Pose& copy : symmetricPoses({{}, axes}, 10.0, 5.0)) {
+    EXPECT_LT(glm::distance(copy * centre, centre), 1e-4);
+  }
+}
+
 TEST(RotationAngleModuloTest, IsTheSmallestOverDenseCopies) {
   const std::vector<glm::dmat3> rotations = uniformRotations(40);
   for (const Case& item : cases()) {

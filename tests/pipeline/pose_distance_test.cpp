@@ -79,6 +79,75 @@ TEST(PoseDistanceTest, BelowAgreesWithTheDistance) {
   }
 }
 
+/// Of `order` turns about a line, all but the identity.
+Symmetries turnsAbout(const glm::dvec3& axis, const glm::dvec3& point_mm, int order) {
+  Symmetries symmetries;
+  for (int i = 1; i < order; ++i) {
+    const glm::dmat3 rotation = rotationFromVector(2.0 * kPi * i / order * glm::normalize(axis));
+    symmetries.discrete.push_back({rotation, point_mm - rotation * point_mm});
+  }
+  return symmetries;
+}
+
+class AxisBesideTheCentreTest : public testing::TestWithParam<int> {};
+
+// Files may give the symmetries of a part, and any point may be the centre of its sphere: a plate
+// with three ears would be its own rival, and no pose of it sure.
+TEST_P(AxisBesideTheCentreTest, BelowAgreesWithTheDistance) {
+  ReferenceObject object = objectWith({});
+  object.symmetries = turnsAbout({0.2, -0.4, 1.0}, {17.0, 1.0, 2.0}, GetParam());
+  const PoseDistance distance(object);
+  int close = 0;
+  for (const Pose& symmetric : object.symmetries.discrete) {
+    for (int i = 0; i < 200; ++i) {
+      const double t = 0.005 * i;
+      Pose other = kSomewhere * symmetric * turned(object, {0.3 * t, 0.2 * t, -0.1 * t});
+      other.translation_mm += glm::dvec3(2.0 * t, -t, 3.0 * t);
+      const double apart = distance(kSomewhere, other);
+      EXPECT_EQ(distance.below(0.04, kSomewhere, other), apart < 0.04) << i;
+      PoseList list(object);
+      list.add(kSomewhere);
+      EXPECT_EQ(list.holds(0.04, other), apart < 0.04) << i;
+      close += apart < 0.04 ? 1 : 0;
+      EXPECT_TRUE(i > 0 || apart < 1e-9) << apart;
+    }
+  }
+  EXPECT_GT(close, 10 * (GetParam() - 1));
+  EXPECT_LT(close, 190 * (GetParam() - 1));
+}
+
+INSTANTIATE_TEST_SUITE_P(Order, AxisBesideTheCentreTest, testing::Values(2, 3, 5));
+
+// Symmetries that are known to some millimetres do not leave one point in place.
+TEST(PoseDistanceTest, BelowAgreesWithTheDistanceForRoughSymmetries) {
+  ReferenceObject object = objectWith({});
+  object.symmetries = turnsAbout({0.0, 0.0, 1.0}, {17.0, 1.0, 2.0}, 3);
+  object.symmetries.discrete[0].translation_mm += glm::dvec3(3.0, -5.0, 4.0);
+  const PoseDistance distance(object);
+  for (const Pose& symmetric : object.symmetries.discrete) {
+    for (int i = 0; i < 200; ++i) {
+      Pose other = kSomewhere * symmetric;
+      other.translation_mm += 0.1 * i * glm::dvec3(0.6, -0.8, 0.0);
+      EXPECT_EQ(distance.below(0.04, other, kSomewhere), distance(other, kSomewhere) < 0.04) << i;
+    }
+    EXPECT_TRUE(distance.below(0.04, kSomewhere * symmetric, kSomewhere));
+  }
+}
+
+TEST(PoseDistanceTest, OfABallOnlyItsCentreCounts) {
+  ReferenceObject object = objectWith({});
+  const glm::dvec3 centre(1.0, 2.0, 3.0);  // not that of the sphere that the object has
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 direction = glm::dmat3(1.0)[i];
+    object.symmetries.continuous.push_back({direction, centre + 30.0 * (i + 1) * direction});
+  }
+  const PoseDistance distance(object);
+  const glm::dmat3 turn = rotationFromVector({0.3, 1.0, -2.0});
+  const Pose other = kSomewhere * Pose{turn, centre - turn * centre};
+  EXPECT_NEAR(distance(kSomewhere, other), 0.0, 1e-6);
+  EXPECT_TRUE(distance.below(0.01, kSomewhere, other));
+}
+
 // Else a duplicate is refined and reported, or a pose of its own is lost.
 TEST(PoseDistanceTest, AListHoldsWhatIsLikeAnyOfItsPoses) {
   ReferenceObject object = objectWith({});

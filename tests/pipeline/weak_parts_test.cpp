@@ -1,12 +1,14 @@
 // Parts that are hard for the method: what still holds for them.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <numbers>
 #include <string>
 #include <vector>
 
+#include "geometry/solids.h"
 #include "support/box_mesh.h"
 #include "support/judged_scene.h"
 #include "support/model_parts.h"
@@ -185,6 +187,45 @@ TEST(NearlySymmetricTest, NothingIsClaimedWhereItIsNot) {
   EXPECT_LT(judged.best_wrong, kNoTie) << "a robot would rely on it";
   EXPECT_TRUE(judged.right == 0 || judged.least_right < kNoTie) << "right by chance, yet sure";
 }
+
+/// A round plate with `ears` ears and a hub on one side: it looks the same after each `ears`-th of
+/// a turn, about an axis that is not amid its bounding box.
+Mesh flange(int ears) {
+  constexpr double kPlateMm = 24.0;  // radius
+  constexpr double kAtMm = 28.0;     // the centre of an ear
+  constexpr double kEarMm = 8.0;     // radius
+  std::vector<glm::dvec2> outline;
+  for (const glm::dvec2& along : test::regularPolygon(40 * ears, 1.0)) {
+    // Where the ray leaves the nearest ear, if it meets that.
+    const double turn = 2.0 * kHalfTurn / ears;
+    const double angle = std::remainder(std::atan2(along.y, along.x), turn);
+    const double beside = kAtMm * std::sin(angle);
+    const double rest = kEarMm * kEarMm - beside * beside;
+    const double ear = rest > 0.0 ? kAtMm * std::cos(angle) + std::sqrt(rest) : 0.0;
+    outline.push_back(std::max(kPlateMm, ear) * along);
+  }
+  Mesh mesh;
+  mesh.name = "flange with " + std::to_string(ears) + " ears";
+  test::addPrism(mesh, outline, 0.0, 6.0);
+  test::addPrism(mesh, test::regularPolygon(40 * ears, 12.0), 6.0, 18.0);
+  return mesh;
+}
+
+class EaredFlangeTest : public testing::TestWithParam<int> {};
+
+// Its symmetric copies are no rivals: with three of them each would get a third of the odds.
+TEST_P(EaredFlangeTest, AloneOnATableIsSure) {
+  const ReferenceDatabase flanges = test::databaseOfMeshes({flange(GetParam())});
+  ASSERT_EQ(symmetryName(flanges.objects.front().symmetries), "C" + std::to_string(GetParam()));
+  for (const double turn : {0.2, 1.3}) {
+    const Judged judged = searched(flanges, {placed({0.0, 0.0, turn}, {10.0, -20.0, 0.0})});
+    EXPECT_EQ(judged.right, 1);
+    EXPECT_EQ(judged.wrong, 0);
+    EXPECT_GT(judged.least_right, test::kSure);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ears, EaredFlangeTest, testing::Values(3, 5));
 
 /// Only the corners of the head tell how the bolt is turned, and nothing but the head or the end
 /// face is seen.
