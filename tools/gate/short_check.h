@@ -41,10 +41,9 @@ struct Movement {
   bool fails = false;  ///< went the wrong way by more than `slack`
 };
 
-/// What moved by half of the last digit that is on record or more. Figures that should be high fail
-/// when they fall, the Brier score and the calibration error when they rise, mean scores and counts
-/// when they move at all. Rows of parts are left out. Throws Error where rows are missing or too
-/// many.
+/// What moved, parts of mixed bins left out. Figures that should be high fail when they fall, the
+/// Brier score and the calibration error when they rise, mean scores and counts when they move at
+/// all; of a single kind only the counts fail. Throws Error where rows are missing or too many.
 std::vector<Movement> movements(const ShortGate& gate, const std::vector<GateRow>& rows);
 
 /// A line for each movement.
