@@ -23,8 +23,8 @@ struct BinScanOptions {
   bool orthographic = true;  ///< as the references; else the sensor's camera over the bin's middle
   double pixel_mm = 0.5;     ///< of the orthographic scan
   SensorModel sensor = sensorModel("none");
-  std::uint64_t seed = 1;    ///< of the noise
-  void check() const;        ///< throws Error naming the bad field
+  std::uint64_t seed = 1;  ///< of the noise
+  void check() const;      ///< throws Error naming the bad field
 };
 
 /// What a sensor sees of the parts that are left, and the truth about them.

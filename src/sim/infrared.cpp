@@ -118,8 +118,9 @@ DotPattern::DotPattern(const Camera& camera, const MatchingSensor& sensor) {
 }
 
 double DotPattern::at(double u, double v) const {
-  const double x = std::clamp(
-      (u + margin_px_ + 0.5) * kTexelsPerPixel - 0.5, 0.0, static_cast<double>(texels_.width() - 2));
+  const double x = std::clamp((u + margin_px_ + 0.5) * kTexelsPerPixel - 0.5,
+                              0.0,
+                              static_cast<double>(texels_.width() - 2));
   const double y =
       std::clamp((v + 0.5) * kTexelsPerPixel - 0.5, 0.0, static_cast<double>(texels_.height() - 2));
   const int i = static_cast<int>(x);
@@ -139,8 +140,7 @@ Image<float> infraredImage(const Viewpoint& from,
   parallelFor(camera.height, 16, [&](int first, int last) {
     for (int v = first; v < last; ++v) {
       for (int u = 0; u < camera.width; ++u) {
-        brightness.at(u, v) =
-            static_cast<float>(brightnessAt(from, light, reflectances, u, v));
+        brightness.at(u, v) = static_cast<float>(brightnessAt(from, light, reflectances, u, v));
       }
     }
   });
@@ -154,8 +154,8 @@ Image<std::uint8_t> exposed(const Image<float>& brightness,
   constexpr double kWhiteShare = 0.05;
   constexpr double kReadNoise = 0.5;  // of the noise at full exposure, in the dark
   std::vector<float> sorted(brightness.begin(), brightness.end());
-  const auto place = static_cast<std::ptrdiff_t>((1.0 - kWhiteShare) *
-                                                 static_cast<double>(sorted.size() - 1));
+  const auto place =
+      static_cast<std::ptrdiff_t>((1.0 - kWhiteShare) * static_cast<double>(sorted.size() - 1));
   std::nth_element(sorted.begin(), sorted.begin() + place, sorted.end());
   const double full = std::max(1e-9, static_cast<double>(sorted[static_cast<std::size_t>(place)]));
   Random random(seed);

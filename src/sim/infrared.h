@@ -37,7 +37,7 @@ class DotPattern {
 
 /// A pinhole image plane at another place than the depth camera, with its own view of the scene.
 struct Viewpoint {
-  CleanView view;             ///< without margin
+  CleanView view;               ///< without margin
   glm::dvec3 position_mm{0.0};  ///< in the depth camera's frame, which has the same orientation
 };
 

@@ -182,7 +182,8 @@ Scan scanFrom(const std::vector<Mesh>& meshes,
   Scan scan;
   scan.camera_from_world = camera_from_world;
   scan.image.camera = camera;
-  scan.image.depth_mm = sense(cropped(wide, camera, margin_px), render, options.sensor, options.seed);
+  scan.image.depth_mm =
+      sense(cropped(wide, camera, margin_px), render, options.sensor, options.seed);
   scan.truth = truthOf(heap, camera_from_world, wide, margin_px, scan.image.depth_mm);
   return scan;
 }

@@ -43,8 +43,8 @@ SensorModel realsenseD415() {
   return model;
 }
 
-/// Kinect of 2010, PrimeSense: 9x9 windows, disparity in steps of 1/8 px, baseline 75 mm (Khoshelham
-/// and Elberink, Sensors 12:1437, 2012; ROS, kinect_calibration/technical).
+/// Kinect of 2010, PrimeSense: 9x9 windows, disparity in steps of 1/8 px, baseline 75 mm
+/// (Khoshelham and Elberink, Sensors 12:1437, 2012; ROS, kinect_calibration/technical).
 SensorModel kinectV1() {
   SensorModel model;
   model.kind = SensorKind::kSpeckle;
@@ -132,7 +132,9 @@ struct Preset {
 constexpr Preset kPresets[] = {
     {"none", "depth as it is", ideal},
     {"structured-light", "a good industrial scanner", [] { return structuredLight(1); }},
-    {"rough", "the same, 1 mm at 1 m, a tenth of all pixels lost", [] { return structuredLight(2); }},
+    {"rough",
+     "the same, 1 mm at 1 m, a tenth of all pixels lost",
+     [] { return structuredLight(2); }},
     {"stereo", "two infrared cameras and dots, as realsense-d435", realsenseD435},
     {"speckle", "one infrared camera and dots, as kinect-v1", kinectV1},
     {"tof", "time of flight, as azure-kinect", azureKinect},

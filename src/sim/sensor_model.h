@@ -30,7 +30,7 @@ struct MatchingSensor {
   double smoothness = 1.0;      ///< of semi-global matching: penalties, of OpenCV's usual ones
   int uniqueness_percent = 10;  ///< the best match must be better than all others by this
   int least_disparity_px = 0;
-  int disparities = 128;        ///< tried from the least one, a multiple of 16
+  int disparities = 128;           ///< tried from the least one, a multiple of 16
   double disparity_step = 0.0625;  ///< of the result [px], at least OpenCV's 1/16
   int speckle_px = 100;            ///< smaller patches of disparity are dropped
 };

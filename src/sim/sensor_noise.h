@@ -27,8 +27,8 @@ SensorNoise sensorNoise(int level);
 
 /// Depth as the projector would see it: what it does not see is not lit.
 struct ProjectorView {
-  Camera camera;  ///< rectified: same orientation and focal length as the depth camera's
-  Image<float> depth_mm;        ///< 0 nothing
+  Camera camera;          ///< rectified: same orientation and focal length as the depth camera's
+  Image<float> depth_mm;  ///< 0 nothing
   glm::dvec3 position_mm{0.0};  ///< in the depth camera's frame: along its x, or along its y
 };
 

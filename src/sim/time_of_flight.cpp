@@ -84,9 +84,8 @@ Wave bounced(const Patch& from, const Patch& to, double pixels, double rad_per_m
   const double area_mm2 = pixels * from.area_mm2;
   // A patch that is wide for its distance fills at most half of what the other one sees.
   const double share = std::min(0.5, out * in * area_mm2 / (std::numbers::pi * distance_sq));
-  return wave(from.lit * from.diffuse * share * to.diffuse,
-              from.way_mm + distance + to.way_mm,
-              rad_per_mm);
+  return wave(
+      from.lit * from.diffuse * share * to.diffuse, from.way_mm + distance + to.way_mm, rad_per_mm);
 }
 
 struct Waves {

@@ -73,7 +73,10 @@ int measuredPixels(const std::vector<Mesh>& meshes,
 
 }  // namespace
 
-PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, const std::string& sensor, double hidden) {
+PoseTrial makePoseTrial(const Mesh& mesh,
+                        std::uint64_t seed,
+                        const std::string& sensor,
+                        double hidden) {
   PoseTrial trial;
   std::mt19937_64 random(seed);
   const Sphere sphere = boundingSphere(mesh);

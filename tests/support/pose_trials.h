@@ -22,7 +22,10 @@ struct PoseTrial {
 /// image) above a table, seen by the scanner of src/sim. `sensor` by its name. With
 /// `hidden` > 0 a ball above the part is pushed into the line of sight from a random side until it
 /// and its shadow take that share (+-0.03).
-PoseTrial makePoseTrial(const Mesh& mesh, std::uint64_t seed, const std::string& sensor, double hidden);
+PoseTrial makePoseTrial(const Mesh& mesh,
+                        std::uint64_t seed,
+                        const std::string& sensor,
+                        double hidden);
 
 /// Rotations about the object's origin frame that leave a part of models/ the same, the identity
 /// first. Names as in models/: t_pipe, bolt, elbow, bracket.

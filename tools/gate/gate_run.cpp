@@ -44,6 +44,7 @@ class CellRun {
     run.shown = graded(answers.shown);
     run.checked = graded(answers.checked);
     run.times_s = timesOf(answers.shown);
+    run.times_s.merge(timesOf(answers.checked));  // where nothing was shown
     return talliesOf(run);
   }
 

@@ -71,7 +71,7 @@ BinSet setOf(const json& value, const std::string& where) {
   BinSet set;
   set.name = object.text("name");
   set.seed = static_cast<std::uint64_t>(object.integer("seed", 0, 1 << 30));
-  set.size = object.text("size", set.size);
+  set.size = object.text("size", "");
   const json& kinds = object.list("kinds");
   object.finish();
   for (const json& kind : kinds) {

@@ -31,7 +31,7 @@ struct BinKind {
 struct BinSet {
   std::string name;
   std::uint64_t seed = 0;
-  std::string size = "640x480";  ///< of the images [px]
+  std::string size;  ///< of the images [px], "640x480"; empty: that of the sensor
   std::vector<BinKind> kinds;
 
   /// All that lie in bins or databases of the set, each once, by name.

@@ -14,20 +14,16 @@ namespace fs = std::filesystem;
 std::vector<std::string> optionsOf(const BinSet& set,
                                    const BinKind& kind,
                                    const SensorRecipe& sensor) {
-  std::vector<std::string> options = {"--sensor",
-                                      sensor.name,
-                                      "--size",
-                                      set.size,
-                                      "--count",
-                                      std::to_string(kind.count),
-                                      "--bins",
-                                      std::to_string(kind.bins),
-                                      "--seed",
-                                      std::to_string(kind.seed)};
+  std::vector<std::string> options;
   const auto add = [&options](const std::string& name, const std::string& value) {
     options.push_back(name);
     options.push_back(value);
   };
+  add("--sensor", sensor.name);
+  add("--count", std::to_string(kind.count));
+  add("--bins", std::to_string(kind.bins));
+  add("--seed", std::to_string(kind.seed));
+  if (!set.size.empty()) add("--size", set.size);
   if (sensor.distance_mm > 0.0) add("--camera-distance", fmt::format("{:g}", sensor.distance_mm));
   if (kind.emptying > 0) add("--emptying", std::to_string(kind.emptying));
   if (kind.mixed) options.emplace_back("--mixed");

@@ -50,13 +50,14 @@ double depthScaleFor(double far_mm, double least) {
   }
 }
 
-/// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts first;
-/// in the order in which they fell.
+/// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts
+/// first; in the order in which they fell.
 std::vector<PlacedPart> partsLeft(const std::vector<PlacedPart>& parts, int image, int images) {
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].world_from_object.translation_mm.z < parts[b].world_from_object.translation_mm.z;
+    return parts[a].world_from_object.translation_mm.z <
+           parts[b].world_from_object.translation_mm.z;
   });
   const auto whole = static_cast<int>(parts.size());
   const int left = std::max(1, whole * (images - image) / images);

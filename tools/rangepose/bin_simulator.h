@@ -26,8 +26,8 @@ struct SimulateArguments {
   std::string unit = "mm";
   std::string size;                         ///< "640x480" [px]; empty: as the sensor has it
   std::string sensor = "structured-light";  ///< of sensorNames()
-  std::string bin_size;  ///< "300x200x100" [mm]; empty: as the parts need it
-  int images = 1;        ///< of each bin, which is emptied from the top meanwhile
+  std::string bin_size;                     ///< "300x200x100" [mm]; empty: as the parts need it
+  int images = 1;  ///< of each bin, which is emptied from the top meanwhile
   double tilt_deg = 15.0;
   ScannerOptions scanner;
   DropOptions drop;

@@ -118,7 +118,9 @@ void declarePaperScan(CLI::App& command, EvaluatePaperArguments& paper) {
       ->capture_default_str();
   command
       .add_option(
-          "--sensor", paper.sensor, "What takes the scans; matching sensors and time of flight need --camera perspective")
+          "--sensor",
+          paper.sensor,
+          "What takes the scans; matching sensors and time of flight need --camera perspective")
       ->check(CLI::IsMember(sensorNames()))
       ->option_text("NAME")
       ->capture_default_str();

@@ -206,15 +206,15 @@ class PaperEvaluation {
 int evaluatePaper(const EvaluatePaperArguments& arguments, const std::string& out) {
   PaperEvaluation evaluation(arguments, out);
   const std::vector<SettingRun> runs = evaluation.runAll();
-  std::string markdown = fmt::format(
-      "{} trials in {} virtual bins, seed {}, {} scan{}, {} starts, path {}.\n\n",
-      evaluation.trials(),
-      arguments.bins,
-      arguments.seed,
-      arguments.camera,
-      arguments.sensor == "none" ? "" : " by " + arguments.sensor,
-      arguments.estimate.starts,
-      arguments.path);
+  std::string markdown =
+      fmt::format("{} trials in {} virtual bins, seed {}, {} scan{}, {} starts, path {}.\n\n",
+                  evaluation.trials(),
+                  arguments.bins,
+                  arguments.seed,
+                  arguments.camera,
+                  arguments.sensor == "none" ? "" : " by " + arguments.sensor,
+                  arguments.estimate.starts,
+                  arguments.path);
   markdown += evaluation.notes() + paperMarkdown(runs);
   if (arguments.ablation) markdown += evaluation.ablationTable();
   if (!out.empty()) {

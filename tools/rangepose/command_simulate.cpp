@@ -174,8 +174,7 @@ void declareBins(CLI::App& command, SimulateArguments& arguments) {
 }
 
 void declareScanner(CLI::App& command, SimulateArguments& arguments) {
-  command
-      .add_option("--sensor", arguments.sensor, sensorHelp())
+  command.add_option("--sensor", arguments.sensor, sensorHelp())
       ->check(CLI::IsMember(sensorNames()))
       ->option_text("NAME")
       ->capture_default_str();
@@ -187,7 +186,8 @@ void declareScanner(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--camera-distance",
                   arguments.scanner.distance_mm,
-                  "To the middle of the bin [mm]; 0: as near as the sensor allows with all of the bin in the image")
+                  "To the middle of the bin [mm]; 0: as near as the sensor allows with all of the "
+                  "bin in the image")
       ->check(CLI::Range(0.0, 1e5))
       ->capture_default_str();
   command.add_option("--tilt", arguments.tilt_deg, "Of the view from straight down [degrees]")
