@@ -36,7 +36,7 @@ void add(std::vector<std::string>& words, const std::vector<std::string>& more) 
 
 Cache::Cache(const fs::path& folder, int threads) : folder_(folder), threads_(threads) {
   const std::string label = "cache " + folder.string();
-  for (const char* name : {"bins", "databases", "answers", "fingerprints", "logs"}) {
+  for (const char* name : {"bins", "databases", "answers", "grades", "fingerprints", "logs"}) {
     std::error_code failure;
     fs::create_directories(folder / name, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made ({})", label, failure.message()));
@@ -54,6 +54,10 @@ const std::string& Cache::hashOf(const fs::path& file) {
   const auto found = hashes_.find(file);
   if (found != hashes_.end()) return found->second;
   return hashes_[file] = ContentHash().addFile(file).text();
+}
+
+fs::path Cache::grades(const std::string& key) const {
+  return folder_ / "grades" / (key + ".json");
 }
 
 std::string Cache::keyOf(const Simulation& simulation) {

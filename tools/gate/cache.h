@@ -36,6 +36,9 @@ class Cache {
                                 const std::filesystem::path& database,
                                 const std::filesystem::path& data_set);
 
+  /// The file for the grades of this key, there or not.
+  std::filesystem::path grades(const std::string& key) const;
+
   /// Of the bytes of a file; read once.
   const std::string& hashOf(const std::filesystem::path& file);
 

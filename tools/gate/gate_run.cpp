@@ -7,8 +7,11 @@
 
 #include "core/error.h"
 #include "eval/grade_bop.h"
+#include "gate/content_hash.h"
 #include "gate/simulation.h"
+#include "io/atomic_file.h"
 #include "io/bop.h"
+#include "io/file_bytes.h"
 #include "rangepose/progress.h"
 
 namespace rangepose::gate {
@@ -16,9 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Answers {
-  std::vector<BopEstimate> shown;
-  std::vector<BopEstimate> checked;
+/// Result files.
+struct AnswerFiles {
+  fs::path shown;
+  fs::path checked;
 };
 
 class CellRun {
@@ -30,22 +34,22 @@ class CellRun {
     data_set_ = cache_.dataSet(plan_.simulator,
                                simulationOf(plan_.set, kind_, sensor_, plan_.models),
                                tinySimulation(plan_.set, kind_, sensor_, plan_.models));
-    data_ = openBop(data_set_);
   }
 
+  /// Graded once: what it depends on is this program, the bins and the answers.
   CellTallies tallies(const System& system) {
-    const Answers answers = system.ppf ? ppfAnswers(system) : rangeposeAnswers(system);
-    GradedRun run;
-    for (const BopScene& scene : data_.scenes) {
-      for (const BopImage& image : scene.images) {
-        run.images.emplace_back(scene.scene_id, image.im_id);
-      }
-    }
-    run.shown = graded(answers.shown);
-    run.checked = graded(answers.checked);
-    run.times_s = timesOf(answers.shown);
-    run.times_s.merge(timesOf(answers.checked));  // where nothing was shown
-    return talliesOf(run);
+    const AnswerFiles files = system.ppf ? ppfAnswers(system) : rangeposeAnswers(system);
+    const std::string key = ContentHash()
+                                .add(cache_.hashOf("/proc/self/exe"))
+                                .add(data_set_.filename().string())
+                                .add(files.shown.filename().string())
+                                .add(files.checked.filename().string())
+                                .add(std::to_string(kind_.parts.size()))
+                                .text();
+    const fs::path file = cache_.grades(key);
+    if (!fs::exists(file)) writeFileAtomically(file, talliesText(grade(files)));
+    constexpr std::uintmax_t kMaxBytes = 1 << 30;
+    return talliesFrom(readFileBytes(file, "grades", kMaxBytes), fileLabel("grades", file));
   }
 
  private:
@@ -53,13 +57,13 @@ class CellRun {
     return cache_.database(system.program, meshesOf(kind_.parts, plan_.models));
   }
 
-  std::vector<BopEstimate> answersOf(const System& system,
-                                     const std::vector<std::string>& options,
-                                     const fs::path& database) {
-    return readBopCsv(cache_.answers(system.program, options, database, data_set_));
+  fs::path answersOf(const System& system,
+                     const std::vector<std::string>& options,
+                     const fs::path& database) {
+    return cache_.answers(system.program, options, database, data_set_);
   }
 
-  Answers rangeposeAnswers(const System& system) {
+  AnswerFiles rangeposeAnswers(const System& system) {
     const fs::path database = databaseBy(system);
     const std::vector<std::string> usual = {"estimate", "--all", "--path", "host"};
     std::vector<std::string> low = usual;
@@ -67,15 +71,33 @@ class CellRun {
     return {answersOf(system, usual, database), answersOf(system, low, database)};
   }
 
-  Answers ppfAnswers(const System& system) {
+  AnswerFiles ppfAnswers(const System& system) {
     const fs::path database = databaseBy(plan_.systems.front());
     const std::string low = fmt::format("{:g}", plan_.low_score);
     return {answersOf(system, {}, database), answersOf(system, {"--min-score", low}, database)};
   }
 
+  CellTallies grade(const AnswerFiles& files) {
+    const BopDataset data = openBop(data_set_);
+    const std::vector<BopEstimate> shown = readBopCsv(files.shown);
+    const std::vector<BopEstimate> checked = readBopCsv(files.checked);
+    GradedRun run;
+    for (const BopScene& scene : data.scenes) {
+      for (const BopImage& image : scene.images) {
+        run.images.emplace_back(scene.scene_id, image.im_id);
+      }
+    }
+    run.shown = graded(data, shown);
+    run.checked = graded(data, checked);
+    run.times_s = timesOf(shown);
+    run.times_s.merge(timesOf(checked));  // where nothing was shown
+    return talliesOf(run);
+  }
+
   /// Objects of a database without parts in the bins have ids of other parts there.
-  std::vector<ObjectErrors> graded(const std::vector<BopEstimate>& rows) const {
-    return kind_.none ? wrongPoses(rows) : gradeBop(data_, rows).images;
+  std::vector<ObjectErrors> graded(const BopDataset& data,
+                                   const std::vector<BopEstimate>& rows) const {
+    return kind_.none ? wrongPoses(rows) : gradeBop(data, rows).images;
   }
 
   CellTallies talliesOf(const GradedRun& run) const {
@@ -93,7 +115,6 @@ class CellRun {
   const BinKind& kind_;
   const SensorRecipe& sensor_;
   fs::path data_set_;
-  BopDataset data_;
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "eval/gate_figures.h"
 #include "gate/cache.h"
 #include "gate/recipes.h"
+#include "gate/tally_file.h"
 
 namespace rangepose::gate {
 
@@ -27,12 +27,6 @@ struct GatePlan {
   std::vector<System> systems;  ///< the first one makes the databases of those that cannot
   double low_score = 0.05;      ///< limit of the second run
   int threads = 0;
-};
-
-/// The tallies of a system.
-struct CellTallies {
-  std::vector<ImageTally> all;
-  std::vector<std::vector<ImageTally>> of_part;  ///< of mixed bins of several parts, else empty
 };
 
 /// The bins of a kind as a sensor sees them.
