@@ -151,18 +151,19 @@ std::vector<Movement> movements(const ShortGate& gate, const std::vector<GateRow
 }
 
 std::string movementText(const std::vector<Movement>& movements) {
-  std::string text;
+  std::string failed;
+  std::string other;
   for (const Movement& one : movements) {
-    text += fmt::format("{} {}, {}: {} {} -> {} (slack {:g})\n",
-                        one.fails ? "FAILED" : "moved ",
-                        one.sensor,
-                        one.kind,
-                        one.figure,
-                        plain(one.was),
-                        plain(one.now),
-                        one.slack);
+    (one.fails ? failed : other) += fmt::format("{} {}, {}: {} {} -> {} (slack {:g})\n",
+                                                one.fails ? "FAILED" : "moved ",
+                                                one.sensor,
+                                                one.kind,
+                                                one.figure,
+                                                plain(one.was),
+                                                plain(one.now),
+                                                one.slack);
   }
-  return text;
+  return other + failed;
 }
 
 std::string recorded(const std::filesystem::path& path, const std::vector<GateRow>& rows) {

@@ -46,7 +46,7 @@ struct Movement {
 /// all; of a single kind only the counts fail. Throws Error where rows are missing or too many.
 std::vector<Movement> movements(const ShortGate& gate, const std::vector<GateRow>& rows);
 
-/// A line for each movement.
+/// A line for each movement, those that fail last.
 std::string movementText(const std::vector<Movement>& movements);
 
 /// The text of the file with the rows as what is expected; all else stays as it is.
