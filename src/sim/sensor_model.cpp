@@ -37,8 +37,8 @@ SensorModel realsenseD435() {
   model.matching.ambient = 0.2;
   model.matching.image_noise = 14.0;
   model.matching.smoothness = 0.2;
-  model.matching.uniqueness_percent = 17;
-  model.matching.least_contrast = 28.0;
+  model.matching.uniqueness_percent = 20;
+  model.matching.least_contrast = 36.0;
   model.matching.least_disparity_px = 8;
   model.matching.speckle_px = 200;
   model.matching.smoothing_px = 2.2;
@@ -75,6 +75,7 @@ SensorModel kinectV1() {
   model.matching.agreement_px = 2;
   model.matching.speckle_px = 40;
   model.matching.image_noise = 6.0;
+  model.matching.least_contrast = 13.0;
   return model;
 }
 
