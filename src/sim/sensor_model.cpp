@@ -70,12 +70,12 @@ SensorModel kinectV1() {
   model.matching.disparities = 112;
   model.matching.disparity_step = 0.125;
   model.matching.window_px = 7;
-  model.matching.smoothness = 0.5;
+  model.matching.smoothness = 0.6;
   model.matching.uniqueness_percent = 2;
   model.matching.agreement_px = 2;
   model.matching.speckle_px = 40;
   model.matching.image_noise = 6.0;
-  model.matching.least_contrast = 13.0;
+  model.matching.least_contrast = 14.0;
   return model;
 }
 
