@@ -196,10 +196,65 @@ TEST_F(SimulateTest, AnOpenMeshIsWarnedOf) {
   EXPECT_THAT(openBop(folder() / "set").scenes, SizeIs(1));
 }
 
+// Users whose sensor is not a structured-light one measure on images of another.
+TEST_F(SimulateTest, EverySensorTakesItsOwnImages) {
+  const std::pair<const char*, std::pair<int, int>> sensors[] = {
+      {"stereo", {848, 480}}, {"speckle", {640, 480}}, {"tof", {640, 576}}, {"laser", {640, 240}}};
+  for (const auto& [sensor, size] : sensors) {
+    const RunResult result =
+        run({"simulate", model("bolt"), "-o", sensor, "--bins", "1", "--sensor", sensor});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    const BopImage image = openBop(folder() / sensor).scenes.at(0).images.at(0);
+    const DepthImage depth = readDepth(image.depth_path, image.camera);
+    EXPECT_EQ(depth.camera.width, size.first) << sensor;
+    EXPECT_EQ(depth.camera.height, size.second) << sensor;
+    const auto measured = std::count_if(
+        depth.depth_mm.begin(), depth.depth_mm.end(), [](float z) { return z > 0.0f; });
+    EXPECT_GT(measured, depth.camera.width * depth.camera.height / 4) << sensor;
+  }
+}
+
+TEST_F(SimulateTest, EmptyingTakesTheHighestPartsAwayAndMovesNoOther) {
+  ASSERT_EQ(simulate({model("bolt")}, "set", {"--bins", "1", "--count", "6", "--emptying", "3"})
+                .exit_code,
+            0);
+  const BopScene scene = openBop(folder() / "set").scenes.at(0);
+  ASSERT_THAT(scene.images, SizeIs(3));
+  const auto truth = readBopTruth(scene.folder);
+  for (int image = 0; image < 3; ++image) {
+    ASSERT_THAT(truth.at(image), SizeIs(6 - 2 * image));
+    for (const BopTruth& part : truth.at(image)) {
+      const bool was_there =
+          std::any_of(truth.at(0).begin(), truth.at(0).end(), [&](const BopTruth& before) {
+            return before.camera_from_object.translation_mm ==
+                   part.camera_from_object.translation_mm;
+          });
+      EXPECT_TRUE(was_there) << "image " << image;
+    }
+  }
+}
+
+TEST_F(SimulateTest, WornPartsHaveTheModelsPosesButNotTheirImages) {
+  ASSERT_EQ(simulate({model("bracket")}, "new", {"--bins", "1"}).exit_code, 0);
+  ASSERT_EQ(simulate({model("bracket")}, "worn", {"--bins", "1", "--wear"}).exit_code, 0);
+  const auto before = contents("new");
+  const auto after = contents("worn");
+  EXPECT_EQ(before.at("models/obj_000001.ply"), after.at("models/obj_000001.ply"));
+  EXPECT_EQ(before.at("test/000001/scene_gt.json"), after.at("test/000001/scene_gt.json"));
+  EXPECT_NE(before.at("test/000001/depth/000000.png"), after.at("test/000001/depth/000000.png"));
+}
+
 TEST_F(SimulateTest, HelpShowsExamples) {
   const RunResult result = run({"simulate", "--help"});
   EXPECT_EQ(result.exit_code, 0);
-  for (const char* word : {"Examples:", "--mixed", "--sensor", "--seed", "--bin-size"}) {
+  for (const char* word : {"Examples:",
+                           "--mixed",
+                           "--sensor",
+                           "--seed",
+                           "--bin-size",
+                           "--wear",
+                           "--emptying",
+                           "realsense-d435"}) {
     EXPECT_THAT(result.out, HasSubstr(word));
   }
 }
@@ -216,6 +271,10 @@ TEST_F(SimulateTest, WrongUsage) {
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--bin-size", "10x20"}), 2, {"--bin-size"}));
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--bin-size", "10x20x-3"}), 2, {"--bin-size"}));
   EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--sensor", "loud"}), 2, {"--sensor", "loud"}));
+  EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--sensor", "tof", "--orthographic"}),
+                        2,
+                        {"tof", "--orthographic"}));
+  EXPECT_TRUE(failsWith(simulate({bolt}, "set", {"--emptying", "0"}), 2, {"--emptying"}));
   EXPECT_THAT(files(), ElementsAre());
 }
 

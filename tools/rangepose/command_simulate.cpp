@@ -99,6 +99,10 @@ void checkFolder(const fs::path& out) {
 int simulate(SimulateArguments& arguments) {
   const auto begin = std::chrono::steady_clock::now();
   setThreadCount(arguments.threads);
+  if (arguments.scanner.orthographic && needsPinhole(sensorModel(arguments.sensor))) {
+    throw UsageError("--sensor " + arguments.sensor +
+                     " takes no orthographic images; leave out --orthographic");
+  }
   if (!arguments.size.empty()) {
     const std::vector<int> pixels = sizesIn<int>(arguments.size, 2);
     arguments.scanner.width = pixels.at(0);
@@ -160,7 +164,7 @@ void declareBins(CLI::App& command, SimulateArguments& arguments) {
   command
       .add_option("--emptying",
                   arguments.images,
-                  "Of each bin, which is emptied from the top meanwhile, the same number at a time")
+                  "Images of each bin, from which the highest parts are taken meanwhile")
       ->check(CLI::Range(1, 500))
       ->capture_default_str();
   command.add_flag(
