@@ -180,6 +180,7 @@ TEST(GateRows, SensorsKindsAndPartsAndAllOfThem) {
                                        {"laser", single, {missed}}};
   const std::vector<GateRow> rows = gateRows(cells, {{"rangepose", "r"}});
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const GateRow& row : rows) names.push_back(row.sensor + " " + row.kind + " " + row.part);
   EXPECT_THAT(names,
               testing::ElementsAre("tof mixed ",
