@@ -37,8 +37,8 @@ SensorModel realsenseD435() {
   model.matching.ambient = 0.2;
   model.matching.image_noise = 14.0;
   model.matching.smoothness = 0.2;
-  model.matching.uniqueness_percent = 17;
-  model.matching.least_contrast = 28.0;
+  model.matching.uniqueness_percent = 20;
+  model.matching.least_contrast = 36.0;
   model.matching.least_disparity_px = 8;
   model.matching.speckle_px = 200;
   model.matching.smoothing_px = 2.2;
@@ -70,11 +70,12 @@ SensorModel kinectV1() {
   model.matching.disparities = 112;
   model.matching.disparity_step = 0.125;
   model.matching.window_px = 7;
-  model.matching.smoothness = 0.5;
+  model.matching.smoothness = 0.6;
   model.matching.uniqueness_percent = 2;
   model.matching.agreement_px = 2;
   model.matching.speckle_px = 40;
   model.matching.image_noise = 6.0;
+  model.matching.least_contrast = 14.0;
   return model;
 }
 

@@ -1,5 +1,6 @@
 // A run over a data set that is interrupted loses nothing but the image at hand.
 #include <gmock/gmock.h>
+#include <signal.h>
 
 #include <algorithm>
 
@@ -44,9 +45,17 @@ class BopResumeTest : public CliTest {
       for (std::size_t at = 0; (at = text.find("\nimage ", at)) != std::string::npos; ++at) ++count;
       return count >= images;
     };
-    ASSERT_EQ(runRangeposeUntil(kept, arguments("r.csv"), folder()).exit_code, 128 + 9)
-        << "it was done before it could be interrupted";
-    ASSERT_FALSE(fs::exists(folder() / "r.csv"));
+    // On a busy machine it may be done before this process gets its turn: then once more.
+    constexpr int kMostRuns = 100;
+    for (int i = 0; i < kMostRuns; ++i) {
+      const RunResult result = runRangeposeUntil(kept, SIGKILL, arguments("r.csv"), folder());
+      if (!fs::exists(folder() / "r.csv")) {
+        ASSERT_EQ(result.exit_code, 128 + SIGKILL) << result.err;
+        return;
+      }
+      fs::remove(folder() / "r.csv");
+    }
+    FAIL() << "it was always done before it could be interrupted";
   }
 
   void append(const std::string& text) const {

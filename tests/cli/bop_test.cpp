@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <sstream>
 
 #include "cli/cli_fixture.h"
@@ -50,7 +51,9 @@ int rowsOf(const std::vector<std::string>& rows, const std::string& prefix) {
 
 TEST_F(BopRunTest, WritesTheRowsOfAllImages) {
   makeDataset(false);
+  const auto begin = std::chrono::steady_clock::now();
   const RunResult result = runSet();
+  const std::chrono::duration<double> took_s = std::chrono::steady_clock::now() - begin;
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("2 of 2 images"));
   EXPECT_EQ(result.err, "");
@@ -65,7 +68,7 @@ TEST_F(BopRunTest, WritesTheRowsOfAllImages) {
   }
   ASSERT_EQ(times.size(), 1U) << "one time an image";
   EXPECT_GT(std::stod(*times.begin()), 0.0);
-  EXPECT_LT(std::stod(*times.begin()), 60.0) << "seconds";
+  EXPECT_LT(std::stod(*times.begin()), took_s.count()) << "of an image, in seconds";
 }
 
 TEST_F(BopRunTest, AnUnreadableImageIsNamedAndTheOthersAreWritten) {

@@ -54,7 +54,7 @@ TEST_F(BuildTest, WritesOneFileAndDescribesEachObject) {
                                 "32"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(files(), ElementsAre("out.rpdb"));
-  EXPECT_THAT(result.out, ContainsRegex("rendering by (glsl|host)"));
+  EXPECT_THAT(result.out, HasSubstr("rendering by host"));
   EXPECT_THAT(result.out, ContainsRegex("1 +bolt +[0-9]+ +[0-9.]+ +[0-9.]+ +60 +[0-9.]+ +C6\n"));
   EXPECT_THAT(result.out, ContainsRegex("2 +elbow +[0-9]+ +114.28 +[0-9.]+ +60 +[0-9.]+ +C2\n"));
   EXPECT_THAT(result.out, ContainsRegex("elbow: [0-9]+ of 7680 triangles are enough"));
@@ -69,12 +69,16 @@ TEST_F(BuildTest, AllTrianglesMayBeKept) {
   EXPECT_EQ(build(bolt(), {"--simplify", "0.5"}).exit_code, 2) << "half of a part is no part";
 }
 
-TEST_F(BuildTest, AutoRendersOnTheHostWithoutEgl) {
+// A database from another machine would find other poses, where several are about as likely.
+TEST_F(BuildTest, TheDatabaseDoesNotDependOnWhatTheMachineCanDraw) {
   const std::vector<std::string> arguments = {
-      "build", bolt(), "-o", "a.rpdb", "--views", "20", "--size", "32"};
-  const RunResult result = run(arguments, kNoEgl);
+      "build", bolt(), "-o", "out.rpdb", "--views", "20", "--size", "32"};
+  ASSERT_EQ(run(arguments, kNoEgl).exit_code, 0);
+  const std::string without = readText(folder() / "out.rpdb");
+  const RunResult result = run(arguments);
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_THAT(result.out, HasSubstr("rendering by host"));
+  EXPECT_FALSE(without.empty());
+  EXPECT_TRUE(without == readText(folder() / "out.rpdb"));
 }
 
 TEST_F(BuildTest, SameInputGivesSameBytesWithAnyNumberOfThreads) {

@@ -114,6 +114,7 @@ RunResult runProgram(const std::string& executable,
 }
 
 RunResult runRangeposeUntil(const std::function<bool()>& condition,
+                            int signal,
                             const std::vector<std::string>& arguments,
                             const std::filesystem::path& folder) {
   return runAndWait(RP_EXECUTABLE, arguments, folder, {}, [&](pid_t child) {
@@ -123,7 +124,7 @@ RunResult runRangeposeUntil(const std::function<bool()>& condition,
       if (condition()) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    kill(child, SIGKILL);
+    kill(child, signal);
     return waitForEnd(child);
   });
 }

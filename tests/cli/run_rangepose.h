@@ -26,8 +26,10 @@ RunResult runRangepose(const std::vector<std::string>& arguments,
                        const std::filesystem::path& folder,
                        const std::vector<std::string>& environment = {});
 
-/// The same, killed (SIGKILL) once `condition` holds; it is asked every millisecond.
+/// The same, sent `signal` once `condition` holds; it is asked every millisecond. The run may be
+/// over before.
 RunResult runRangeposeUntil(const std::function<bool()>& condition,
+                            int signal,
                             const std::vector<std::string>& arguments,
                             const std::filesystem::path& folder);
 

@@ -1,10 +1,9 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <sys/wait.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <string>
@@ -244,18 +243,21 @@ TEST_F(SimulateTest, AFullBinIsAnErrorThatSaysWhatToDo) {
 }
 
 TEST_F(SimulateTest, AnInterruptLeavesWholeScenes) {
-  // In the foreground: else the signal goes to the process and to its group, and a second one ends
-  // it.
-  const std::string command = fmt::format(
-      "cd '{}' && timeout --foreground --preserve-status -s INT 4 '{}' simulate '{}' -o set"
-      " --bins 100000 --count 1 --size 64x48 > out.txt 2> err.txt",
-      folder().string(),
-      RP_EXECUTABLE,
-      model("bolt"));
-  const int status = std::system(command.c_str());
-  ASSERT_TRUE(WIFEXITED(status));
-  EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_THAT(readText(folder() / "err.txt"),
+  // Once there is a scene, however long that takes.
+  const auto begun = [&] { return fs::exists(folder() / "set/test/000001/scene_camera.json"); };
+  const std::vector<std::string> arguments = {"simulate",
+                                              model("bolt"),
+                                              "-o",
+                                              "set",
+                                              "--bins",
+                                              "100000",
+                                              "--count",
+                                              "1",
+                                              "--size",
+                                              "64x48"};
+  const RunResult result = runRangeposeUntil(begun, SIGINT, arguments, folder());
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err,
               ContainsRegex("^rangepose: interrupted; [0-9]+ of 100000 bins are in set"));
   const BopDataset set = openBop(folder() / "set");
   EXPECT_GE(set.scenes.size(), 1u);

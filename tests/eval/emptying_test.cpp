@@ -130,6 +130,22 @@ TEST_F(EmptyingTest, WrongAnswersFailAndTakeTheNearestPart) {
   EXPECT_THAT(left[1], testing::ElementsAre(1, 2, 3, 4));
 }
 
+// The tables say how far the centres of parts are off: not by where a symmetric copy has its own.
+TEST_F(EmptyingTest, CentreIsComparedWithThatOfTheNearestCopy) {
+  Pose third;  // about a line beside the centre
+  third.rotation = rotationFromVector({0.0, 0.0, 2.0944});
+  third.translation_mm = {5.0, 3.0, 0.0};
+  const ErrorModel model(mesh_, {{third}, {}});
+  VirtualBin bin = bin_;
+  bin.bin_from_object.resize(1);
+  BinScanOptions options;
+  options.pixel_mm = 1.0;
+  const BinScan scan = scanVirtualBin(bin, {true}, options);
+  const PoseGrade grade = gradePose(model, scan, scan.truth[0] * third);
+  EXPECT_TRUE(grade.right);
+  EXPECT_NEAR(grade.center, 0.0, 1e-9);
+}
+
 TEST_F(EmptyingTest, WithoutAnAnswerTheMostVisiblePartGoes) {
   std::vector<std::vector<int>> left;
   const std::vector<Trial> trials =

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "gles/references_gles.h"
 #include "stages/channels_host.h"
+#include "stages/reference_host.h"
 #include "support/backends.h"
 #include "support/box_mesh.h"
 #include "support/tolerances.h"
@@ -205,6 +206,36 @@ TEST_F(ReferencesTest, ManyViewsInBatchesAreTheSameAsFew) {
     if (std::abs(a.data()[i] - b.data()[i]) > test::kReferenceRangePx) ++different;
   }
   EXPECT_LE(different, 10);
+}
+
+// The two agree in nearly all pixels: what is found with one database is found with the other.
+TEST_F(ReferencesTest, AgreesWithTheHostButForFewPixels) {
+  ReferenceObject drawn = test::objectOf(test::bracketBoxes(), 600, 64, 13);
+  ReferenceObject by_host = drawn;
+  const ChannelOptions options;
+  renderReferences(context(), drawn, options);
+  host::renderReferences(by_host, options, {});
+  ASSERT_EQ(drawn.atlas.size(), by_host.atlas.size());
+  int shown = 0;
+  int outlines = 0;
+  int edges = 0;
+  int ranges = 0;
+  for (std::size_t i = 0; i < drawn.atlas.size(); ++i) {
+    const ReferenceTexel& a = drawn.atlas.data()[i];
+    const ReferenceTexel& b = by_host.atlas.data()[i];
+    shown += b.g != 0.0f ? 1 : 0;
+    outlines += (a.g != 0.0f) != (b.g != 0.0f) ? 1 : 0;
+    edges += a.b != b.b ? 1 : 0;
+    const bool both = a.g != 0.0f && b.g != 0.0f;
+    ranges += both && std::abs(a.g - b.g) > test::kReferenceRangePx ? 1 : 0;
+  }
+  ASSERT_GT(shown, 300000);
+  EXPECT_LT(outlines, test::kReferenceOutlineShare * shown);
+  EXPECT_LT(edges, test::kReferenceOutlineShare * shown);
+  EXPECT_LT(ranges, test::kReferenceCreaseShare * shown);
+  RecordProperty("outlines", outlines);
+  RecordProperty("edges", edges);
+  RecordProperty("ranges", ranges);
 }
 
 TEST_F(ReferencesTest, TheSameTwiceIsBitIdentical) {

@@ -39,6 +39,12 @@ inline constexpr float kBorderShare = 0.02f;
 /// Position of a border on the raster [px]: GL moves corners to a grid of 1/256 px, and the crease
 /// between two steep faces by that times their slope.
 inline constexpr double kRasterPx = 0.05;
+/// Share of the pixels of references that two rasterisers give to the object or to background, or
+/// make edges, not alike: outlines that pass a pixel's centre within 1/256 px, some 50 px long in
+/// views of 1000 px. Measured: 0.0001 and 0.0002.
+inline constexpr double kReferenceOutlineShare = 0.0005;
+/// The same where ranges differ by more than kReferenceRangePx: creases within 1/256 px.
+inline constexpr double kReferenceCreaseShare = 0.001;
 /// Range of a reference pixel against a formula [px], on faces of slope 4 or less (see kRasterPx).
 inline constexpr float kReferenceRangePx = 0.02f;
 /// Cosine of a flat face against a formula: float instead of double.

@@ -95,6 +95,14 @@ void warnAboutSize(const ReferenceObject& object, const std::string& unit) {
                            unit));
 }
 
+/// Of "auto" the host, whose views are the same on every machine: drivers round outlines to 1/256
+/// px and ranges to floats, each in its own way, and one bit of a view may decide between poses
+/// that are about as likely.
+PathRequest rendererOf(const std::string& path) {
+  const PathRequest request = parsePathRequest(path);
+  return request == PathRequest::kAuto ? PathRequest::kHost : request;
+}
+
 double secondsSince(std::chrono::steady_clock::time_point begin) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
@@ -108,7 +116,7 @@ std::string twinsNote(const ReferenceObject& object) {
 class Builder {
  public:
   explicit Builder(const BuildArguments& arguments)
-      : arguments_(arguments), context_(openContext(parsePathRequest(arguments.path), false)) {
+      : arguments_(arguments), context_(openContext(rendererOf(arguments.path), false)) {
     request_.adaptive = arguments.sampling == "adaptive";
     request_.views = arguments.views;
     request_.bins = arguments.bins;
@@ -304,7 +312,10 @@ std::function<int()> declareBuild(CLI::App& command) {
                   "diameter; 0: none")
       ->check(CLI::Range(0.0, 0.01))
       ->option_text("SHARE [0.0002]");
-  command.add_option("--path", arguments->path, "What renders; auto: glsl where there is EGL")
+  command
+      .add_option("--path",
+                  arguments->path,
+                  "What renders; auto: host, whose database is the same on all machines")
       ->check(CLI::IsMember({"auto", "glsl", "host", "cuda"}))
       ->capture_default_str();
   command.add_option("--threads", arguments->threads, "Of the host; 0: all cores")
