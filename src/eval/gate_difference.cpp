@@ -63,8 +63,11 @@ GateDifference gateDifference(const PairedTallies& pairs, const BootstrapOptions
   const GateFigures after = gateFigures(pairs.after);
   GateDifference difference;
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    difference.figures.push_back(
-        {columns[i], columns[i]->value(before), columns[i]->value(after), intervals[i]});
+    difference.figures.push_back({columns[i],
+                                  columns[i]->value(before),
+                                  columns[i]->value(after),
+                                  intervals[i],
+                                  units.size()});
   }
   difference.time_ratio = after.time_s / before.time_s;
   return difference;

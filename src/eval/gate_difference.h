@@ -17,13 +17,17 @@ struct PairedTallies {
                                    ///< of a bin that is emptied, are drawn together
 };
 
+/// Fewer than that all go the same way by chance in more than one of twenty cases.
+inline constexpr std::size_t kLeastUnits = 6;
+
 struct FigureDifference {
   const GateColumn* column = nullptr;
   double before = 0.0;
   double after = 0.0;
-  Interval interval;  ///< of after - before
+  Interval interval;      ///< of after - before
+  std::size_t units = 0;  ///< that were drawn from
   double change() const { return after - before; }
-  bool clear() const { return interval.leavesOut(0.0); }
+  bool clear() const { return units >= kLeastUnits && interval.leavesOut(0.0); }
 };
 
 struct GateDifference {

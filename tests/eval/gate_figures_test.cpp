@@ -252,6 +252,17 @@ TEST(GateDifference, ImagesOfOneBinAreDrawnTogether) {
   EXPECT_EQ(recall.interval.high, 1.0);
 }
 
+TEST(GateDifference, FewBinsAreNeverClear) {
+  const auto recallOf = [](std::size_t bins) {
+    const std::vector<ImageTally> none = foundOf(std::vector<bool>(bins, false));
+    const std::vector<ImageTally> all = foundOf(std::vector<bool>(bins, true));
+    return of(gateDifference(pairsOf(none, all)), "recall");
+  };
+  EXPECT_EQ(recallOf(5).interval.low, 1.0);
+  EXPECT_FALSE(recallOf(5).clear()) << "five coins show the same side in one of 16 throws";
+  EXPECT_TRUE(recallOf(6).clear());
+}
+
 TEST(GateDifference, OtherImagesAreRefused) {
   std::vector<ImageTally> before = foundOf({true, false});
   std::vector<ImageTally> after = before;

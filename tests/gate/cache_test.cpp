@@ -24,7 +24,7 @@ std::string textOf(const fs::path& file) {
 
 /// A program of these lines of shell.
 fs::path script(const test::TempFolder& folder, const std::string& name, const std::string& lines) {
-  const fs::path file = folder.write(name, "#!/bin/sh\n" + lines + "\n");
+  fs::path file = folder.write(name, "#!/bin/sh\n" + lines + "\n");
   chmod(file.c_str(), 0755);
   return file;
 }

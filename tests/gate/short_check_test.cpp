@@ -3,9 +3,7 @@
 
 #include <gmock/gmock.h>
 
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "core/error.h"
 #include "gate/gate_rows.h"
@@ -130,14 +128,19 @@ TEST_F(ShortChecks, RowsThatAreNotOnRecordAreAnError) {
   EXPECT_THROW(movements(gate_, now), Error) << "else a sensor could be dropped unseen";
 }
 
-TEST_F(ShortChecks, RecordingKeepsAllElse) {
-  std::ifstream file(path_);
-  std::stringstream text;
-  text << file.rdbuf();
-  EXPECT_LT(text.str().find("recipes"), text.str().find("slack"));
+TEST_F(ShortChecks, RecordingKeepsAllElseAsItIsWritten) {
+  const std::string file = kFile;
+  const std::string before = file.substr(0, file.find("\"expected\""));
+  EXPECT_THAT(recorded(path_, rows(figures())), testing::StartsWith(before));
+  EXPECT_EQ(recorded(path_, rows(figures())), recorded(path_, rows(figures())));
   EXPECT_EQ(gate_.slack.at("recall"), 0.03);
   EXPECT_EQ(gate_.slack.at("first_pick"), 0.0);
   EXPECT_EQ(gate_.recipes.sets.front().seed, 8200u);
+}
+
+TEST_F(ShortChecks, RecordingRefusesAFileThatItWouldCutOff) {
+  folder_.write("short.json", R"({"expected": [], "slack": {}})");
+  EXPECT_THROW(recorded(path_, rows(figures())), Error);
 }
 
 TEST_F(ShortChecks, UnknownFieldsAreNamed) {
@@ -177,6 +180,7 @@ TEST(GateRows, SensorsKindsAndPartsAndAllOfThem) {
                                        {"laser", single, {missed}}};
   const std::vector<GateRow> rows = gateRows(cells, {{"rangepose", "r"}});
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const GateRow& row : rows) names.push_back(row.sensor + " " + row.kind + " " + row.part);
   EXPECT_THAT(names,
               testing::ElementsAre("tof mixed ",

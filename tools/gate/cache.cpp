@@ -97,7 +97,7 @@ fs::path Cache::dataSet(const fs::path& simulator,
                         const Simulation& tiny) {
   const std::string key =
       ContentHash().add(fingerprint(simulator, tiny)).add(keyOf(simulation)).text();
-  const fs::path folder = folder_ / "bins" / key;
+  fs::path folder = folder_ / "bins" / key;
   if (fs::exists(folder)) return folder;
   simulate(simulator, simulation, folder, folder_ / "logs" / ("bins-" + key + ".txt"));
   moveTo(partial(folder), folder);

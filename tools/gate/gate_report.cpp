@@ -93,8 +93,7 @@ std::string reportMarkdown(const GateReport& report) {
   if (!report.differences.empty()) {
     text +=
         "\n### Differences\n\nB - A, with the interval that holds 95 % of 1,000 draws of the bins; "
-        "* "
-        "where it leaves out 0. Time: B / A.\n\n" +
+        "* where it leaves out 0 (of six bins or more). Time: B / A.\n\n" +
         differenceMarkdown(report.differences);
   }
   text += "\n### Calibration\n\nAll checked poses.\n\n" + calibrationMarkdown(report.rows);

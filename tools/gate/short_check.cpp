@@ -167,8 +167,9 @@ std::string movementText(const std::vector<Movement>& movements) {
 }
 
 std::string recorded(const std::filesystem::path& path, const std::vector<GateRow>& rows) {
-  Json file = Json::parse(readFileBytes(path, "short gate", kMaxBytes));
-  Json expected = Json::array();
+  const std::string text = readFileBytes(path, "short gate", kMaxBytes);
+  const std::size_t field = text.find("\"expected\"");
+  std::string lines;
   for (const GateRow& row : rows) {
     if (!row.part.empty()) continue;
     Json figures = Json::object();
@@ -176,10 +177,15 @@ std::string recorded(const std::filesystem::path& path, const std::vector<GateRo
       const double value = gateColumn(figure.key).value(row.figures);
       figures[figure.key] = std::isnan(value) ? Json() : Json(rounded(value));
     }
-    expected.push_back({{"sensor", row.sensor}, {"kind", row.kind}, {"figures", figures}});
+    const Json line = {{"sensor", row.sensor}, {"kind", row.kind}, {"figures", figures}};
+    lines += (lines.empty() ? "    " : ",\n    ") + line.dump();
   }
-  file["expected"] = std::move(expected);
-  return file.dump(2) + "\n";
+  const std::string expected = "\"expected\": [\n" + lines + "\n  ]\n}\n";
+  std::string with_rows = text.substr(0, field) + expected;
+  json all_else = parseJsonObject(text, "short gate");
+  all_else["expected"] = json::parse(with_rows, nullptr, false).value("expected", json());
+  if (all_else == json::parse(with_rows, nullptr, false)) return with_rows;
+  throw Error(fileLabel("short gate", path) + ": field \"expected\" must be the last one");
 }
 
 }  // namespace rangepose::gate
