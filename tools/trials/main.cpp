@@ -16,6 +16,7 @@
 #include "io/mesh_file.h"
 #include "pipeline/estimate.h"
 #include "pipeline/scene_window.h"
+#include "sim/sensor_model.h"
 #include "stages/reference_host.h"
 #include "support/pose_trials.h"
 
