@@ -44,7 +44,8 @@ double reflected(const Reflectance& surface,
                  const glm::dvec3& normal,
                  const glm::dvec3& to_light,
                  const glm::dvec3& to_eye) {
-  const double facing = std::max(0.0, glm::dot(normal, to_light));
+  const double facing = glm::dot(normal, to_light);
+  if (facing <= 0.0) return 0.0;
   if (surface.gloss == 0.0) return surface.diffuse * facing;
   const glm::dvec3 half = glm::normalize(to_light + to_eye);
   const double mirror = std::max(0.0, glm::dot(normal, half));

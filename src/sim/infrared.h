@@ -16,11 +16,11 @@ struct Reflectance {
   double exponent = 20.0;  ///< the higher, the narrower a highlight
 };
 
-/// One for each part of a heap, then one for what they lie in; drawn once for a heap, so that all
-/// of its images agree.
+/// One for each part of a heap, then one for what they lie in; drawn once for a depth image, so
+/// that both of its infrared images agree.
 std::vector<Reflectance> drawReflectances(std::size_t parts, std::uint64_t seed);
 
-/// The dots of a device, always the same: brightness 0..1 over the projector's image plane.
+/// The dots of a device, always the same: brightness over the projector's image plane.
 class DotPattern {
  public:
   /// `camera` sees the scene; the pattern reaches beyond its image, so that all that is seen from

@@ -14,8 +14,8 @@ cv::Ptr<cv::StereoSGBM> semiGlobal(const MatchingSensor& sensor) {
   constexpr double kSmallStep = 8.0;   // penalties of OpenCV's own example, per pixel of a window
   constexpr double kLargeStep = 32.0;  // likewise
   const int area = sensor.window_px * sensor.window_px;
-  return cv::StereoSGBM::create(sensor.least_disparity_px,
-                                sensor.disparities,
+  return cv::StereoSGBM::create(sensor.columns * sensor.least_disparity_px,
+                                sensor.columns * sensor.disparities,
                                 sensor.window_px,
                                 static_cast<int>(kSmallStep * sensor.smoothness * area),
                                 static_cast<int>(kLargeStep * sensor.smoothness * area),
@@ -76,20 +76,23 @@ Image<float> matchedDisparity(const Image<std::uint8_t>& left,
   for (cv::Mat& image : images) {
     const int missing_px = left.width() + beside_px - image.cols;
     cv::copyMakeBorder(image, image, 0, 0, missing_px, 0, cv::BORDER_CONSTANT);
+    const cv::Size fine(sensor.columns * image.cols, image.rows);
+    cv::resize(image, image, fine, 0.0, 0.0, cv::INTER_CUBIC);
   }
   cv::Mat found;
   semiGlobal(sensor)->compute(images[0], images[1], found);
-  found = found.colRange(beside_px, found.cols);
+  found = found.colRange(sensor.columns * beside_px, found.cols);
   Image<float> disparity(left.width(), left.height(), 0.0f);
-  constexpr int kScale = cv::StereoMatcher::DISP_SCALE;
-  const int least = sensor.least_disparity_px * kScale;
+  const int scale = cv::StereoMatcher::DISP_SCALE * sensor.columns;
+  const int least = sensor.least_disparity_px * scale;
   for (int v = 0; v < left.height(); ++v) {
     const auto* const row = found.ptr<std::int16_t>(v);
     for (int u = 0; u < left.width(); ++u) {
-      if (row[u] < least || row[u] <= 0 || contrast.at<float>(v, u) < sensor.least_contrast) {
+      const int steps = row[sensor.columns * u];
+      if (steps < least || steps <= 0 || contrast.at<float>(v, u) < sensor.least_contrast) {
         continue;
       }
-      const double px = static_cast<double>(row[u]) / kScale;
+      const double px = static_cast<double>(steps) / scale;
       disparity.at(u, v) =
           static_cast<float>(std::round(px / sensor.disparity_step) * sensor.disparity_step);
     }

@@ -47,10 +47,10 @@ Image<float> senseByLight(const CleanView& seen,
   return depth_mm;
 }
 
-/// Pixels of the sensor's own image are other ones in an image of another width.
+/// Disparity follows the focal length.
 MatchingSensor scaled(const SensorModel& sensor, const Camera& camera) {
   MatchingSensor matching = sensor.matching;
-  const double scale = static_cast<double>(camera.width) / sensor.width;
+  const double scale = camera.fx / sensor.fx;
   matching.least_disparity_px = static_cast<int>(std::floor(scale * matching.least_disparity_px));
   constexpr int kUnit = 16;  // OpenCV counts disparities in these
   const double needed = scale * sensor.matching.disparities / kUnit;
@@ -90,7 +90,8 @@ Image<float> senseByMatching(const CleanView& seen,
                              std::uint64_t seed) {
   const Camera& camera = seen.camera;
   const MatchingSensor matching = scaled(sensor, camera);
-  const glm::dvec3 projector_mm(matching.projector_mm, 0.0, 0.0);
+  const bool stereo = sensor.kind == SensorKind::kStereo;
+  const glm::dvec3 projector_mm(stereo ? matching.projector_mm : sensor.baseline_mm, 0.0, 0.0);
   const ProjectorView projector = projectorAt(projector_mm, camera, render);
   const DotPattern dots(camera, matching);
   const Illumination light{&projector, &dots, matching.ambient};
@@ -101,7 +102,7 @@ Image<float> senseByMatching(const CleanView& seen,
   };
   const Image<std::uint8_t> first = imageFrom({seen, glm::dvec3(0.0)}, kFirstImage);
   Image<std::uint8_t> second;
-  if (sensor.kind == SensorKind::kStereo) {
+  if (stereo) {
     const glm::dvec3 position_mm(sensor.baseline_mm, 0.0, 0.0);
     second = imageFrom({render(camera, position_mm), position_mm}, kSecondImage);
   } else {

@@ -37,7 +37,7 @@ SensorModel realsenseD435() {
   model.matching.ambient = 0.2;
   model.matching.image_noise = 14.0;
   model.matching.smoothness = 0.2;
-  model.matching.uniqueness_percent = 20;
+  model.matching.uniqueness_percent = 00;
   model.matching.least_contrast = 36.0;
   model.matching.least_disparity_px = 8;
   model.matching.speckle_px = 200;
@@ -45,10 +45,12 @@ SensorModel realsenseD435() {
   return model;
 }
 
-/// RealSense D415: f 925 px and baseline 55 mm at 1280x720; here 848x480.
+/// RealSense D415: f 925 px and baseline 55 mm at 1280x720. Matched as by a D435.
 SensorModel realsenseD415() {
   SensorModel model = realsenseD435();
-  model.fx = model.fy = 613.0;
+  model.width = 1280;
+  model.height = 720;
+  model.fx = model.fy = 925.0;
   model.baseline_mm = 55.0;
   model.nearest_mm = 450.0;
   model.matching.projector_mm = 25.0;
@@ -63,19 +65,19 @@ SensorModel kinectV1() {
   model.fx = model.fy = 580.0;
   model.depth_scale = 1.0;
   model.nearest_mm = 500.0;
-  model.matching.projector_mm = 75.0;
   model.matching.dot_spacing_px = 3.2;
-  model.matching.dot_px = 0.6;
+  model.matching.dot_px = 0.8;
   model.matching.least_disparity_px = 16;
   model.matching.disparities = 112;
   model.matching.disparity_step = 0.125;
-  model.matching.window_px = 7;
-  model.matching.smoothness = 0.6;
-  model.matching.uniqueness_percent = 2;
+  model.matching.columns = 2;
+  model.matching.window_px = 11;
+  model.matching.smoothness = 1.2;
+  model.matching.uniqueness_percent = 0;
   model.matching.agreement_px = 2;
   model.matching.speckle_px = 40;
-  model.matching.image_noise = 6.0;
-  model.matching.least_contrast = 14.0;
+  model.matching.image_noise = 10.0;
+  model.matching.least_contrast = 6.0;
   return model;
 }
 
@@ -153,12 +155,12 @@ constexpr Preset kPresets[] = {
     {"rough",
      "the same, 1 mm at 1 m, a tenth of all pixels lost",
      [] { return structuredLight(2); }},
-    {"stereo", "two infrared cameras and dots, as realsense-d435", realsenseD435},
+    {"stereo", "two infrared cameras and dots, as realsense-d415", realsenseD415},
     {"speckle", "one infrared camera and dots, as kinect-v1", kinectV1},
     {"tof", "time of flight, as azure-kinect", azureKinect},
     {"laser", "a swept line of laser light, pixels twice as long as wide", laser},
-    {"realsense-d435", "stereo, 848x480", realsenseD435},
-    {"realsense-d415", "stereo, 848x480, narrow", realsenseD415},
+    {"realsense-d435", "stereo, 848x480, wide", realsenseD435},
+    {"realsense-d415", "stereo, 1280x720, narrow", realsenseD415},
     {"kinect-v1", "speckle, 640x480, steps of 1/8 px", kinectV1},
     {"azure-kinect", "time of flight, 640x576", azureKinect},
     {"kinect-v2", "time of flight, 512x424", kinectV2},
@@ -185,8 +187,7 @@ const std::vector<std::string>& sensorNames() {
 }
 
 bool needsPinhole(const SensorModel& sensor) {
-  return sensor.kind == SensorKind::kStereo || sensor.kind == SensorKind::kSpeckle ||
-         sensor.kind == SensorKind::kTimeOfFlight;
+  return sensor.kind != SensorKind::kNone && sensor.kind != SensorKind::kStructuredLight;
 }
 
 SensorModel sensorModel(const std::string& name) {

@@ -17,25 +17,26 @@ enum class SensorKind {
   kLaser,            ///< a line of laser light that sweeps down the image
 };
 
-/// What a sensor that matches infrared images is made of. Pixels are those of an image as wide as
-/// the sensor's own; in an image of another size all of them scale with its width.
+/// What a sensor that matches infrared images is made of. Pixels are those of the image that is
+/// taken, whatever its size; only the disparities that are tried follow the focal length.
 struct MatchingSensor {
-  double projector_mm = 0.0;    ///< from the camera along its x
+  double projector_mm = 0.0;    ///< of stereo, from the camera along its x; speckle: the baseline
   double dot_spacing_px = 5.0;  ///< of the pattern, on average
   double dot_px = 0.9;          ///< deviation of a dot's profile
   double blur_px = 0.6;         ///< deviation of the lens's point spread
-  double ambient = 0.1;         ///< light of the room, of that of a dot's middle
+  double ambient = 0.1;         ///< light of the room, of that of a dot's middle at 1 m
   double image_noise = 2.0;     ///< deviation of a grey value at full exposure, of 255
-  int window_px = 9;            ///< width of what is matched, odd
+  int columns = 1;              ///< that are matched for each pixel: finer than depth is delivered
+  int window_px = 9;            ///< width of what is matched, odd; of these columns
   double smoothness = 1.0;      ///< of semi-global matching: penalties, of OpenCV's usual ones
   int uniqueness_percent = 10;  ///< the best match must be better than all others by this
   double least_contrast = 0.0;  ///< deviation of grey values in a window; pixels with less are lost
   int least_disparity_px = 0;
   int disparities = 128;           ///< tried from the least one, a multiple of 16
-  double disparity_step = 0.0625;  ///< of the result [px], at least OpenCV's 1/16
+  double disparity_step = 0.0625;  ///< as matched [px], at least OpenCV's 1/16
   int agreement_px = 1;            ///< both ways of matching may differ by this
   int speckle_px = 100;            ///< smaller patches of disparity are dropped
-  double smoothing_px = 0.0;       ///< deviation of the device's own smoothing of disparity
+  double smoothing_px = 0.0;       ///< deviation of the device's own smoothing, also across jumps
 };
 
 /// Phase of light, mixed by the lens and by what parts reflect onto each other.

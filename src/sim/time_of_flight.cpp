@@ -49,11 +49,13 @@ Wave wave(double strength, double way_mm, double rad_per_mm) {
   return std::polar(strength, rad_per_mm * way_mm);
 }
 
+/// Other surfaces are looked for that far away [px].
+constexpr double kFirstPx = 3.0;
+constexpr double kLastPx = 60.0;
+
 /// Directions and distances in which other surfaces are looked for [px]: a spiral.
 std::vector<std::array<int, 2>> samplesAround() {
   constexpr int kSamples = 32;
-  constexpr double kFirstPx = 3.0;
-  constexpr double kLastPx = 60.0;
   const double turn = std::numbers::pi * (3.0 - std::sqrt(5.0));
   std::vector<std::array<int, 2>> samples;
   for (int i = 0; i < kSamples; ++i) {
@@ -66,9 +68,9 @@ std::vector<std::array<int, 2>> samplesAround() {
 
 /// Pixels that a sample of the spiral stands for: rings grow with the square of their radius.
 double pixelsOf(const std::array<int, 2>& sample, std::size_t samples) {
-  constexpr double kLogRange = 2.9957322735539909;  // of radii: log(60 / 3)
+  const double log_range = std::log(kLastPx / kFirstPx);
   const double radius_sq = sample[0] * sample[0] + sample[1] * sample[1];
-  return 2.0 * std::numbers::pi * radius_sq * kLogRange / static_cast<double>(samples);
+  return 2.0 * std::numbers::pi * radius_sq * log_range / static_cast<double>(samples);
 }
 
 /// Light that reaches `to` by way of `from` and goes on to the camera (one bounce between two
@@ -93,7 +95,7 @@ struct Waves {
   Image<float> imaginary;
 };
 
-/// Of each pixel by itself, as the camera is open to it: falls off with the square of the way.
+/// Of each pixel by itself, before the lens mixes them.
 Waves wavesOf(const Image<Patch>& patches, double rad_per_mm) {
   const std::vector<std::array<int, 2>> around = samplesAround();
   Waves waves{Image<float>(patches.width(), patches.height()),

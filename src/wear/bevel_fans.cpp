@@ -213,7 +213,9 @@ std::vector<Follower> addFollowers(const EdgeGraph& graph, double edge_mm, Bevel
     normal[graph.vertexOf(corner)] += graph.normals[corner / 3];
   }
   for (const Follower& follower : followers) {
-    const glm::dvec3 up = glm::normalize(normal[follower.vertex]);
+    const glm::dvec3& sum = normal[follower.vertex];
+    if (glm::dot(sum, sum) == 0.0) continue;  // between needles
+    const glm::dvec3 up = glm::normalize(sum);
     const glm::dvec3& move = inset[follower.corner];
     fans.inset[fan_of_vertex[follower.vertex]] = move - glm::dot(move, up) * up;
   }

@@ -199,7 +199,7 @@ TEST_F(SimulateTest, AnOpenMeshIsWarnedOf) {
 // Users whose sensor is not a structured-light one measure on images of another.
 TEST_F(SimulateTest, EverySensorTakesItsOwnImages) {
   const std::pair<const char*, std::pair<int, int>> sensors[] = {
-      {"stereo", {848, 480}}, {"speckle", {640, 480}}, {"tof", {640, 576}}, {"laser", {640, 240}}};
+      {"stereo", {1280, 720}}, {"speckle", {640, 480}}, {"tof", {640, 576}}, {"laser", {640, 240}}};
   for (const auto& [sensor, size] : sensors) {
     const RunResult result =
         run({"simulate", model("bolt"), "-o", sensor, "--bins", "1", "--sensor", sensor});
@@ -221,8 +221,21 @@ TEST_F(SimulateTest, EmptyingTakesTheHighestPartsAwayAndMovesNoOther) {
   const BopScene scene = openBop(folder() / "set").scenes.at(0);
   ASSERT_THAT(scene.images, SizeIs(3));
   const auto truth = readBopTruth(scene.folder);
+  const Mesh mesh = readMesh(model("bolt"), LengthUnit::kMillimetre);
+  const Pose bin_from_camera = scene.images[0].bin.value().camera_from_bin.inverse();
+  const auto heightsIn = [&](int image) {
+    std::vector<double> heights;
+    for (const BopTruth& part : truth.at(image)) {
+      const glm::dvec3 middle = part.camera_from_object * boundingSphere(mesh).center_mm;
+      heights.push_back((bin_from_camera * middle).z);
+    }
+    std::sort(heights.begin(), heights.end());
+    return heights;
+  };
   for (int image = 0; image < 3; ++image) {
     ASSERT_THAT(truth.at(image), SizeIs(6 - 2 * image));
+    EXPECT_NEAR(
+        heightsIn(image).back(), heightsIn(0)[static_cast<std::size_t>(5 - 2 * image)], 1e-6);
     for (const BopTruth& part : truth.at(image)) {
       const bool was_there =
           std::any_of(truth.at(0).begin(), truth.at(0).end(), [&](const BopTruth& before) {

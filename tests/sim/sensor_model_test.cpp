@@ -34,11 +34,15 @@ PlacedPart at(int mesh, const glm::dvec3& position_mm) {
 }
 
 /// A block 80 mm wide on a table, its middle at x = block_mm, from straight above x = 0.
-Scan blockSeenBy(const std::string& sensor, std::uint64_t seed = 1, double block_mm = 0.0) {
+Scan blockSeenBy(const std::string& sensor,
+                 std::uint64_t seed = 1,
+                 double block_mm = 0.0,
+                 double depth_scale = 0.0) {
   const std::vector<Mesh> meshes = {boxMesh({-40, -40, 0}, {40, 40, kBlockMm})};
   ScannerOptions options;
   options.sensor = sensorModel(sensor);
   options.seed = seed;
+  options.depth_scale = depth_scale;
   const glm::dmat3 down(
       glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
   return scanFrom(meshes, {at(0, {block_mm, 0, 0})}, {down, {0.0, 0.0, kTableMm}}, options);
@@ -180,15 +184,33 @@ TEST(SensorModelTest, StereoSmearsEdges) {
 }
 
 TEST(SensorModelTest, SpeckleDepthHasTheStepsOfItsDisparity) {
-  const Scan scan = blockSeenBy("speckle");
+  const Scan scan = blockSeenBy("speckle", 1, 0.0, 0.001);
   const SensorModel sensor = sensorModel("speckle");
   const double per_px = sensor.fx * sensor.baseline_mm;
+  int measured = 0;
   for (const float z : scan.image.depth_mm) {
     if (z == 0.0f) continue;
-    const double disparity = per_px / z;
-    const double nearest = std::round(disparity / 0.125) * 0.125;
-    // Depth is rounded to 1 mm on top of it.
-    ASSERT_LE(std::abs(z - per_px / nearest), 0.5 + 1e-3);
+    ++measured;
+    const double nearest = std::round(per_px / z / 0.125) * 0.125;
+    ASSERT_NEAR(z, per_px / nearest, 0.002);
+  }
+  EXPECT_GT(measured, 100000);
+}
+
+// Users crop and bin their images: the same scene in half as many pixels.
+TEST(SensorModelTest, MatchingSensorsMeasureInImagesOfOtherSizes) {
+  for (const std::string sensor : {"stereo", "speckle"}) {
+    const std::vector<Mesh> meshes = {boxMesh({-40, -40, 0}, {40, 40, kBlockMm})};
+    ScannerOptions options;
+    options.sensor = sensorModel(sensor);
+    options.width = options.sensor.width / 2;
+    options.height = options.sensor.height / 2;
+    const glm::dmat3 down(
+        glm::dvec3(1.0, 0.0, 0.0), glm::dvec3(0.0, -1.0, 0.0), glm::dvec3(0.0, 0.0, -1.0));
+    const Scan scan = scanFrom(meshes, {at(0, {0, 0, 0})}, {down, {0.0, 0.0, kTableMm}}, options);
+    const Errors errors = errorsOnTop(scan, 15.0);
+    EXPECT_LT(errors.lost, errors.pixels / 3) << sensor;
+    EXPECT_LT(std::abs(errors.mean_mm), 4.0) << sensor;
   }
 }
 #endif
@@ -217,7 +239,7 @@ TEST(SensorModelTest, CornersSeemDeeperToATimeOfFlightCamera) {
       for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
           const glm::dvec3 p = camera.unproject(u, v, kTableMm);
-          if (std::abs(p.x - 56.0) > 4.0 || std::abs(p.y) > 20.0) continue;
+          if (std::abs(p.x - 180.0) > 4.0 || std::abs(p.y) > 20.0) continue;
           sum += scan.image.depth_mm.at(u, v);
           ++count;
         }
@@ -226,12 +248,46 @@ TEST(SensorModelTest, CornersSeemDeeperToATimeOfFlightCamera) {
     return sum / count;
   };
   // Before a wall that faces the camera, and far from it.
-  EXPECT_GT(besideBlock(120.0), besideBlock(-200.0) + 0.3);
+  EXPECT_GT(besideBlock(240.0), besideBlock(-200.0) + 0.3);
 }
 
-TEST(SensorModelTest, ALasersPixelsAreTwiceAsLongAsWide) {
-  const Camera camera = blockSeenBy("laser").image.camera;
+// Its light comes from +y, so that the block's shadow lies at -y.
+TEST(SensorModelTest, ALaserHasLongPixelsAndShadowsAlongY) {
+  const Scan scan = blockSeenBy("laser");
+  const Camera& camera = scan.image.camera;
   EXPECT_NEAR(camera.fx / camera.fy, 2.0, 1e-12);
+  const auto lostIn = [&](double from_mm, double to_mm) {
+    int lost = 0;
+    int pixels = 0;
+    for (int v = 0; v < camera.height; ++v) {
+      for (int u = 0; u < camera.width; ++u) {
+        const glm::dvec3 p = camera.unproject(u, v, kTableMm);
+        if (p.y < from_mm || p.y > to_mm || std::abs(p.x) > 20.0) continue;
+        ++pixels;
+        lost += scan.image.depth_mm.at(u, v) == 0.0f ? 1 : 0;
+      }
+    }
+    return static_cast<double>(lost) / pixels;
+  };
+  // A ray over the block's edge at y = -40 mm meets the table this much farther on.
+  const double hidden_mm = kBlockMm * (sensorModel("laser").baseline_mm + 40.0) / 500.0;
+  EXPECT_GT(lostIn(-40.0 - hidden_mm + 2.0, -47.0), 0.9);
+  EXPECT_LT(lostIn(-40.0 - hidden_mm - 30.0, -40.0 - hidden_mm - 5.0), 0.1);
+  EXPECT_LT(lostIn(48.0, 70.0), 0.1);
+}
+
+TEST(SensorModelTest, AllOfABinIsInTheImageOfALaser) {
+  const BinShape bin{{300.0, 200.0, 100.0}};
+  ScannerOptions options;
+  options.sensor = sensorModel("laser");
+  options.distance_mm = distanceFor(bin, options);
+  const Camera camera = scannerCamera(options);
+  const Scan scan = scanBin({boxMesh({-5, -5, 0}, {5, 5, 5})}, {at(0, {0, 0, 0})}, bin, options);
+  for (const glm::vec3& vertex : binMesh(bin).vertices) {
+    const glm::dvec2 pixel = camera.project(scan.camera_from_world * glm::dvec3(vertex));
+    EXPECT_TRUE(pixel.x > 0.0 && pixel.x < camera.width - 1.0) << pixel.x;
+    EXPECT_TRUE(pixel.y > 0.0 && pixel.y < camera.height - 1.0) << pixel.y;
+  }
 }
 
 // A shiny face sends no light back to any of them.

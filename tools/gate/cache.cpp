@@ -41,7 +41,8 @@ Cache::Cache(const fs::path& folder, int threads) : folder_(folder), threads_(th
     fs::create_directories(folder / name, failure);
     if (failure) throw Error(fmt::format("{}: cannot be made ({})", label, failure.message()));
   }
-  lock_ = open((folder / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  // Kept by children: a bin that is still in work when the gate is gone keeps others off.
+  lock_ = open((folder / "lock").c_str(), O_RDWR | O_CREAT, 0644);
   if (lock_ < 0) throw Error(label + ": is not writable; choose another one by --cache");
   if (flock(lock_, LOCK_EX | LOCK_NB) == 0) return;
   close(lock_);
@@ -128,12 +129,16 @@ fs::path Cache::answers(const fs::path& program,
   const std::string key = hash.add(std::to_string(threads_)).text();
   fs::path file = folder_ / "answers" / (key + ".csv");
   if (fs::exists(file)) return file;
-  fs::remove(file.string() + ".partial");  // of a run that was interrupted
+  // Under another name until the program has said that all went well.
+  const fs::path unsure = partial(file);
+  fs::remove(unsure);
+  fs::remove(unsure.string() + ".partial");  // of a run that was interrupted
   std::vector<std::string> words = {program.string()};
   add(words, options);
-  add(words, {"--db", database.string(), "--bop", data_set.string(), "--csv", file.string()});
+  add(words, {"--db", database.string(), "--bop", data_set.string(), "--csv", unsure.string()});
   add(words, {"--threads", std::to_string(threads_)});
   runLogged(words, folder_ / "logs" / ("answers-" + key + ".txt"));
+  moveTo(unsure, file);
   return file;
 }
 

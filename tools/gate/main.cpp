@@ -76,7 +76,15 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   auto* check = app.add_option("--check", arguments.check, "The short gate of this file");
   app.add_flag("--record", arguments.record, "Write the figures of --check as what is expected")
       ->needs(check);
-  for (const char* name : {"--set", "--sensor", "--kind", "--bins", "--against", "--ppf"}) {
+  for (const char* name : {"--set",
+                           "--sensor",
+                           "--kind",
+                           "--bins",
+                           "--against",
+                           "--ppf",
+                           "--recipes",
+                           "--out",
+                           "--min-score"}) {
     check->excludes(app.get_option(name));
   }
   app.footer(kExamples);

@@ -63,7 +63,7 @@ Simulation tinySimulation(const BinSet& set,
                           const SensorRecipe& sensor,
                           const fs::path& models) {
   BinSet tiny_set = set;
-  tiny_set.size = "96x72";
+  tiny_set.size.clear();
   BinKind tiny = kind;
   tiny.seed = set.seed;
   tiny.bins = 1;

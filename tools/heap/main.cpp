@@ -23,7 +23,7 @@ struct Arguments {
   std::vector<std::string> meshes;
   std::string out;
   std::string unit = "mm";
-  std::string size = "640x480";
+  std::string size;  ///< empty: that of the sensor
   std::string sensor = "structured-light";
   std::uint64_t seed = 1;
   double tilt_deg = 15.0;
@@ -55,7 +55,7 @@ void declareOptions(CLI::App& app, Arguments& arguments) {
   app.add_option("--camera-distance", scanner.distance_mm, "To the middle of the heap [mm]");
   app.add_option("--tilt", arguments.tilt_deg, "Of the view from straight down [degrees]")
       ->check(CLI::Range(0.0, 57.0));
-  app.add_option("--size", arguments.size, "Of the image, WIDTHxHEIGHT")
+  app.add_option("--size", arguments.size, "Of the image, WIDTHxHEIGHT; else that of the sensor")
       ->check([](const std::string& text) {
         int width = 0;
         int height = 0;
@@ -99,7 +99,7 @@ void makeScan(Arguments& arguments) {
   for (const std::string& path : arguments.meshes) meshes.push_back(readMesh(path, unit));
   ScannerOptions& scanner = arguments.scanner;
   scanner.sensor = sensorModel(arguments.sensor);
-  parseSize(arguments.size, scanner.width, scanner.height);
+  if (!arguments.size.empty()) parseSize(arguments.size, scanner.width, scanner.height);
   scanner.tilt_rad = arguments.tilt_deg * 3.14159265358979323846 / 180.0;
   scanner.seed = arguments.seed;
   scanner.check();

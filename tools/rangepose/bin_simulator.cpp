@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <numeric>
 #include <utility>
@@ -40,8 +39,10 @@ std::vector<int> countsOf(const SimulateArguments& arguments, int bin) {
   return counts;
 }
 
-/// The finest of 0.001, 0.002, 0.005, 0.01 ... mm, from `least`, that leaves 16 bits for `far_mm`.
+/// `least`, or the finest coarser one of 0.001, 0.002, 0.005, 0.01 ... mm, that leaves 16 bits for
+/// `far_mm`.
 double depthScaleFor(double far_mm, double least) {
+  if (far_mm <= least * 65535.0) return least;
   constexpr double kSteps[] = {1.0, 2.0, 5.0};
   double decade = 1e-3;
   for (int k = 0;; ++k) {
@@ -52,13 +53,20 @@ double depthScaleFor(double far_mm, double least) {
 }
 
 /// What is left of a bin when `images` are taken while it is emptied evenly, the highest parts
-/// first; in the order in which they fell.
-std::vector<PlacedPart> partsLeft(const std::vector<PlacedPart>& parts, int image, int images) {
+/// first, by the middle of each; in the order in which they fell.
+std::vector<PlacedPart> partsLeft(const std::vector<Mesh>& meshes,
+                                  const std::vector<PlacedPart>& parts,
+                                  int image,
+                                  int images) {
+  std::vector<double> height_mm;
+  for (const PlacedPart& part : parts) {
+    const Sphere sphere = boundingSphere(meshes[static_cast<std::size_t>(part.mesh)]);
+    height_mm.push_back((part.world_from_object * sphere.center_mm).z);
+  }
   std::vector<std::size_t> order(parts.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return parts[a].world_from_object.translation_mm.z <
-           parts[b].world_from_object.translation_mm.z;
+    return height_mm[a] < height_mm[b];
   });
   const auto whole = static_cast<int>(parts.size());
   const int left = std::max(1, whole * (images - image) / images);
@@ -136,7 +144,8 @@ void BinSimulator::makeBin(int bin, const std::atomic<bool>& stop) {
   std::vector<BopView> views;
   for (int image = 0; image < arguments_.images; ++image) {
     if (stop) return;
-    const std::vector<PlacedPart> left = partsLeft(contents.parts, image, arguments_.images);
+    const std::vector<PlacedPart> left =
+        partsLeft(contents.meshes, contents.parts, image, arguments_.images);
     const Scan scan = scanBin(contents.meshes, left, dropped.bin, scanner, contents.shiny);
     views.push_back(viewOf(image, dropped.bin, contents, scan));
     ++scanner.seed;
