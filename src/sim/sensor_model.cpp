@@ -37,7 +37,7 @@ SensorModel realsenseD435() {
   model.matching.ambient = 0.2;
   model.matching.image_noise = 14.0;
   model.matching.smoothness = 0.2;
-  model.matching.uniqueness_percent = 00;
+  model.matching.uniqueness_percent = 20;
   model.matching.least_contrast = 36.0;
   model.matching.least_disparity_px = 8;
   model.matching.speckle_px = 200;
