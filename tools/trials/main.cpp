@@ -183,7 +183,6 @@ int main(int argc, char** argv) try {
       ->capture_default_str();
   app.add_option("--sensor", options.sensor, "What takes the images")
       ->check(CLI::IsMember(rangepose::sensorNames()))
-      ->check(CLI::Range(0, 2))
       ->capture_default_str();
   app.add_option("--hidden", options.hidden, "Share of the part that is hidden")
       ->check(CLI::Range(0.0, 0.9))
