@@ -4,128 +4,107 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "core/error.h"
 
 namespace rangepose {
 
+namespace {
+
+using F = GateFigures;
+
+template <auto Member>
+double valueOf(const F& figures) {
+  return static_cast<double>(figures.*Member);
+}
+
+// Whether shares, decimals, where shown, and whether compared.
+constexpr bool kShare = true;
+constexpr bool kInTable = true;
+constexpr bool kCompared = true;
+
+constexpr GateColumn kColumns[] = {
+    {"images", "images", !kShare, 0, kInTable, !kCompared, valueOf<&F::images>},
+    {"parts", "parts", !kShare, 0, kInTable, !kCompared, valueOf<&F::parts>},
+    {"first_pick", "first pick right [%]", kShare, 1, kInTable, kCompared, valueOf<&F::first_pick>},
+    {"recall", "recall [%]", kShare, 1, kInTable, kCompared, valueOf<&F::recall>},
+    {"recall_as_seen",
+     "recall as seen [%]",
+     kShare,
+     1,
+     kInTable,
+     !kCompared,
+     valueOf<&F::recall_as_seen>},
+    {"precision", "precision [%]", kShare, 1, kInTable, kCompared, valueOf<&F::precision>},
+    {"precision_as_seen",
+     "precision as seen [%]",
+     kShare,
+     1,
+     kInTable,
+     !kCompared,
+     valueOf<&F::precision_as_seen>},
+    {"average_precision", "AP", !kShare, 3, kInTable, kCompared, valueOf<&F::average_precision>},
+    {"recall_checked",
+     "recall, all checked [%]",
+     kShare,
+     1,
+     kInTable,
+     !kCompared,
+     valueOf<&F::recall_checked>},
+    {"sure", "score > 0.9", !kShare, 0, kInTable, !kCompared, valueOf<&F::sure>},
+    {"sure_right", "right of these [%]", kShare, 1, kInTable, kCompared, valueOf<&F::sure_right>},
+    {"none_images",
+     "images without parts",
+     !kShare,
+     0,
+     kInTable,
+     !kCompared,
+     valueOf<&F::none_images>},
+    {"none_poses",
+     "poses in such an image",
+     !kShare,
+     2,
+     kInTable,
+     !kCompared,
+     valueOf<&F::none_poses>},
+    {"checked", "checked poses", !kShare, 0, !kInTable, !kCompared, valueOf<&F::checked>},
+    {"brier", "Brier score", !kShare, 4, kInTable, kCompared, valueOf<&F::brier>},
+    {"calibration_error",
+     "calibration error",
+     !kShare,
+     4,
+     kInTable,
+     !kCompared,
+     valueOf<&F::calibration_error>},
+    {"mean_right",
+     "mean score of right poses",
+     !kShare,
+     3,
+     !kInTable,
+     !kCompared,
+     valueOf<&F::mean_right>},
+    {"mean_wrong",
+     "mean score of wrong poses",
+     !kShare,
+     3,
+     !kInTable,
+     !kCompared,
+     valueOf<&F::mean_wrong>},
+    {"median_mssd",
+     "median error [% of diameter]",
+     kShare,
+     3,
+     kInTable,
+     kCompared,
+     valueOf<&F::median_mssd>},
+    {"time_s", "time [s an image]", !kShare, 3, kInTable, !kCompared, valueOf<&F::time_s>},
+};
+
+}  // namespace
+
 const std::vector<GateColumn>& gateColumns() {
-  using F = GateFigures;
-  constexpr auto kCount = FigureUnit::kCount;
-  constexpr auto kPercent = FigureUnit::kPercent;
-  constexpr auto kNumber = FigureUnit::kNumber;
-  static const std::vector<GateColumn> columns = {
-      {"images", "images", kCount, 0, true, false, [](const F& f) { return 1.0 * f.images; }},
-      {"parts", "parts", kCount, 0, true, false, [](const F& f) { return 1.0 * f.parts; }},
-      {"first_pick",
-       "first pick right [%]",
-       kPercent,
-       1,
-       true,
-       true,
-       [](const F& f) { return f.first_pick; }},
-      {"recall", "recall [%]", kPercent, 1, true, true, [](const F& f) { return f.recall; }},
-      {"recall_as_seen",
-       "recall as seen [%]",
-       kPercent,
-       1,
-       true,
-       false,
-       [](const F& f) { return f.recall_as_seen; }},
-      {"precision",
-       "precision [%]",
-       kPercent,
-       1,
-       true,
-       true,
-       [](const F& f) { return f.precision; }},
-      {"precision_as_seen",
-       "precision as seen [%]",
-       kPercent,
-       1,
-       true,
-       false,
-       [](const F& f) { return f.precision_as_seen; }},
-      {"average_precision",
-       "AP",
-       kNumber,
-       3,
-       true,
-       true,
-       [](const F& f) { return f.average_precision; }},
-      {"recall_checked",
-       "recall, all checked [%]",
-       kPercent,
-       1,
-       true,
-       false,
-       [](const F& f) { return f.recall_checked; }},
-      {"sure", "score > 0.9", kCount, 0, true, false, [](const F& f) { return 1.0 * f.sure; }},
-      {"sure_right",
-       "right of these [%]",
-       kPercent,
-       1,
-       true,
-       true,
-       [](const F& f) { return f.sure_right; }},
-      {"none_images",
-       "images without parts",
-       kCount,
-       0,
-       true,
-       false,
-       [](const F& f) { return 1.0 * f.none_images; }},
-      {"none_poses",
-       "poses in such an image",
-       kNumber,
-       2,
-       true,
-       false,
-       [](const F& f) { return f.none_poses; }},
-      {"checked",
-       "checked poses",
-       kCount,
-       0,
-       false,
-       false,
-       [](const F& f) { return 1.0 * f.checked; }},
-      {"brier", "Brier score", kNumber, 4, true, true, [](const F& f) { return f.brier; }},
-      {"calibration_error",
-       "calibration error",
-       kNumber,
-       4,
-       true,
-       false,
-       [](const F& f) { return f.calibration_error; }},
-      {"mean_right",
-       "mean score of right poses",
-       kNumber,
-       3,
-       false,
-       false,
-       [](const F& f) { return f.mean_right; }},
-      {"mean_wrong",
-       "mean score of wrong poses",
-       kNumber,
-       3,
-       false,
-       false,
-       [](const F& f) { return f.mean_wrong; }},
-      {"median_mssd",
-       "median error [% of diameter]",
-       kPercent,
-       3,
-       true,
-       true,
-       [](const F& f) { return f.median_mssd; }},
-      {"time_s",
-       "time [s an image]",
-       FigureUnit::kSeconds,
-       3,
-       true,
-       false,
-       [](const F& f) { return f.time_s; }},
-  };
+  static const std::vector<GateColumn> columns(std::begin(kColumns), std::end(kColumns));
   return columns;
 }
 
@@ -139,7 +118,7 @@ const GateColumn& gateColumn(const std::string& key) {
 
 std::string figureText(const GateColumn& column, double value, bool sign) {
   if (std::isnan(value)) return "-";
-  const double shown = column.unit == FigureUnit::kPercent ? 100.0 * value : value;
+  const double shown = column.share ? 100.0 * value : value;
   return sign ? fmt::format("{:+.{}f}", shown, column.decimals)
               : fmt::format("{:.{}f}", shown, column.decimals);
 }

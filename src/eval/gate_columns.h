@@ -8,12 +8,10 @@
 
 namespace rangepose {
 
-enum class FigureUnit { kCount, kPercent, kNumber, kSeconds };
-
 struct GateColumn {
-  const char* key;    ///< in files
-  const char* title;  ///< in tables
-  FigureUnit unit;
+  const char* key;                      ///< in files
+  const char* title;                    ///< in tables
+  bool share;                           ///< 0..1, in per cent in tables
   int decimals;                         ///< in tables
   bool in_table;                        ///< else in files only
   bool compared;                        ///< in the table of differences

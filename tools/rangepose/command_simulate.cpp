@@ -96,9 +96,8 @@ void checkFolder(const fs::path& out) {
   checkOutputFile(out / "camera.json");
 }
 
-int simulate(SimulateArguments& arguments) {
-  const auto begin = std::chrono::steady_clock::now();
-  setThreadCount(arguments.threads);
+/// What the command line says of scanner and bin, put where the library takes it.
+void takeOptions(SimulateArguments& arguments) {
   if (arguments.scanner.orthographic && needsPinhole(sensorModel(arguments.sensor))) {
     throw UsageError("--sensor " + arguments.sensor +
                      " takes no orthographic images; leave out --orthographic");
@@ -113,6 +112,12 @@ int simulate(SimulateArguments& arguments) {
     const std::vector<double> sides = sizesIn<double>(arguments.bin_size, 3);
     arguments.drop.bin.inner_mm = {sides.at(0), sides.at(1), sides.at(2)};
   }
+}
+
+int simulate(SimulateArguments& arguments) {
+  const auto begin = std::chrono::steady_clock::now();
+  setThreadCount(arguments.threads);
+  takeOptions(arguments);
   BinSimulator simulator(arguments);
   checkFolder(arguments.out);
   const InterruptGuard guard;
