@@ -118,14 +118,14 @@ Image<float> sense(const CleanView& seen,
                    const RenderFrom& render,
                    const SensorModel& sensor,
                    std::uint64_t seed) {
-  const bool by_light =
-      sensor.kind == SensorKind::kStructuredLight || sensor.kind == SensorKind::kLaser;
-  if (sensor.kind == SensorKind::kNone) return depthOf(seen.surface);
-  if (by_light) return senseByLight(seen, render, sensor, seed);
   if (seen.camera.orthographic && needsPinhole(sensor)) {
     throw Error("sensor " + sensor.name +
                 ": has no parallel rays; take a perspective camera or another sensor");
   }
+  const bool by_light =
+      sensor.kind == SensorKind::kStructuredLight || sensor.kind == SensorKind::kLaser;
+  if (sensor.kind == SensorKind::kNone) return depthOf(seen.surface);
+  if (by_light) return senseByLight(seen, render, sensor, seed);
   if (sensor.kind == SensorKind::kTimeOfFlight) {
     const std::vector<Reflectance> surfaces =
         drawReflectances(seen.silhouette_px.size(), seedFor(seed, kSurfaces));
