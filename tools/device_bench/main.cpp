@@ -9,9 +9,9 @@
 #include <sstream>
 #include <string>
 
+#include "compare/compare.h"
 #include "device_bench/rows.h"
 #include "gles/stage_set_gles.h"
-#include "pipeline/compare.h"
 #include "pipeline/path_choice.h"
 
 namespace rangepose::device_bench {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "compare/compare.h"
 #include "core/parallel.h"
 #include "io/atomic_file.h"
-#include "pipeline/compare.h"
 #include "pipeline/path_choice.h"
 #include "rangepose/command.h"
 #include "rangepose/compare_picture.h"

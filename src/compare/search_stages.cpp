@@ -1,4 +1,4 @@
-#include "pipeline/compare_search.h"
+#include "compare/search_stages.h"
 
 #include <memory>
 #include <utility>

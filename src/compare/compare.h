@@ -11,7 +11,7 @@
 namespace rangepose {
 
 /// One stage on both paths. Values are pixels, error sums, simplexes, hypotheses or poses, whatever
-/// the stage makes; the tolerances and their reasons are a table in compare.cpp.
+/// the stage makes; the tolerances and their reasons are a table in tally.cpp.
 struct StageComparison {
   std::string stage;
   std::string path;              ///< name of the subject, e.g. "glsl"

@@ -1,4 +1,4 @@
-#include "pipeline/compare_refine.h"
+#include "compare/refine_stages.h"
 
 #include <cmath>
 

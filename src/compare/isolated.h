@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 
 namespace rangepose {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <string>
 
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 
 namespace rangepose {
 
-/// How far apart the values of a stage may be; the table is in compare_tally.cpp.
+/// How far apart the values of a stage may be; the table is in tally.cpp.
 struct StageTolerance {
   const char* unit = "";
   double each = 0.0;   ///< of one value [unit]

@@ -1,4 +1,4 @@
-#include "pipeline/compare_tally.h"
+#include "compare/tally.h"
 
 namespace rangepose {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "pipeline/compare_tally.h"
+#include "compare/tally.h"
 
 namespace rangepose {
 

@@ -1,4 +1,4 @@
-#include "pipeline/compare_isolated.h"
+#include "compare/isolated.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
-#include "pipeline/compare_refine.h"
-#include "pipeline/compare_search.h"
-#include "pipeline/compare_tally.h"
+#include "compare/refine_stages.h"
+#include "compare/search_stages.h"
+#include "compare/tally.h"
 #include "pipeline/foreground_task.h"
 #include "pipeline/scene_window.h"
 

@@ -1,5 +1,5 @@
 // Two paths on one image, stage by stage.
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 
 #include <gmock/gmock.h>
 

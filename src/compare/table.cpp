@@ -2,7 +2,7 @@
 #include <array>
 #include <cstdio>
 
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 
 namespace rangepose {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "pipeline/compare_tally.h"
+#include "compare/tally.h"
 
 namespace rangepose {
 

@@ -1,14 +1,14 @@
-#include "pipeline/compare.h"
+#include "compare/compare.h"
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <sstream>
 
+#include "compare/isolated.h"
+#include "compare/search_stages.h"
+#include "compare/tally.h"
 #include "geometry/orientation_grid.h"
-#include "pipeline/compare_isolated.h"
-#include "pipeline/compare_search.h"
-#include "pipeline/compare_tally.h"
 #include "stages/reference_host.h"
 
 namespace rangepose {
