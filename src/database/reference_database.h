@@ -16,8 +16,7 @@ struct ReferenceDatabase {
   std::vector<ReferenceObject> objects;
 };
 
-/// Sets what follows from the mesh, its sphere and its diameter alone: thickness, flat faces and
-/// stability.
+/// Sets what follows from the mesh and its diameter alone: thickness and flat faces.
 void measureShape(ReferenceObject& object);
 
 /// An object with its scale and the orientations of its views, not rendered yet. Throws Error for a

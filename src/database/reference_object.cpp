@@ -34,7 +34,6 @@ void measureShape(ReferenceObject& object) {
   if (sheet_mm < kThinSheet * object.diameter_mm)
     object.thickness_mm = std::min(object.thickness_mm, sheet_mm);
   object.flat_face = largestExtent(faces);
-  object.stability = stabilityCovariance(object.mesh, {object.center_mm, object.radius_mm});
 }
 
 void setSymmetries(ReferenceObject& object, const Symmetries& symmetries) {

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
-#include "pipeline/confidence.h"
+#include "pipeline/evidence.h"
 #include "pipeline/pose_distance.h"
 #include "pipeline/scene_window.h"
 
@@ -97,15 +97,16 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
   candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
-void setConfidence(Candidate& candidate,
-                   const CheckResult& check,
-                   const ReferenceObject& object,
-                   double mean_visible_mm2) {
+void setTerm(Candidate& candidate, EvidenceTerm term, double value) {
+  candidate.evidence[static_cast<std::size_t>(term)] = value;
+  candidate.rank = logOddsOf(candidate.evidence, candidate.check.inner_px);
+  candidate.confidence = probabilityOf(candidate.rank);
+}
+
+void setEvidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
   candidate.check = check;
-  candidate.check.stability =
-      stability(check.covariance, object.stability, candidate.pose.rotation);
-  candidate.rank =
-      logOddsOf(candidate.check, check.explained_mm2 / mean_visible_mm2, candidate.outside);
+  candidate.evidence = evidenceTerms(check, {mean_visible_mm2, candidate.outside});
+  candidate.rank = logOddsOf(candidate.evidence, candidate.check.inner_px);
   candidate.confidence = probabilityOf(candidate.rank);
 }
 

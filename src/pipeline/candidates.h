@@ -31,10 +31,9 @@ double meanVisibleArea(const ReferenceObject& object);
 /// Sets check and rank. Of two poses that fit equally well the one that explains more of the scene
 /// is the better explanation: a part's face alone can be laid on many surfaces.
 void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visible_mm2);
-/// Sets check, rank and confidence of a pose that was rendered.
-void setConfidence(Candidate& candidate,
-                   const CheckResult& check,
-                   const ReferenceObject& object,
-                   double mean_visible_mm2);
+/// Changes a term of the evidence of a pose, and with it rank and confidence.
+void setTerm(Candidate& candidate, EvidenceTerm term, double value);
+/// Sets the check of a pose that was rendered, its evidence, and what follows from that.
+void setEvidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2);
 
 }  // namespace rangepose

@@ -9,6 +9,7 @@
 #include "pipeline/refine.h"
 #include "pipeline/scene_window.h"
 #include "pipeline/selection.h"
+#include "stages/sensor_facts_host.h"
 
 namespace rangepose {
 namespace {
@@ -19,6 +20,8 @@ constexpr int kMaxScenePx = 1024;
 /// A start this near to an earlier one would find what that found [share of the diameter].
 constexpr double kTriedApart = 0.1;
 constexpr int kFruitlessPasses = 2;
+/// Confidence from which on a part counts as found.
+constexpr double kFound = 0.5;
 
 PoseEstimate estimateOf(const Candidate& candidate) {
   return {candidate.object,
@@ -27,7 +30,8 @@ PoseEstimate estimateOf(const Candidate& candidate) {
           candidate.rough_error,
           candidate.view,
           candidate.confidence,
-          candidate.check};
+          candidate.check,
+          candidate.evidence};
 }
 
 /// The windows around the starts of one object, and what they were made of.
@@ -117,7 +121,7 @@ class Estimator {
     constexpr int kVerified = 3;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
-    const RefineScene scene{depth_, whole_, result_.noise_mm, enclosure_, stages_};
+    const RefineScene scene = wholeScene();
     copies = refineTurned(copies, database_, scene, kVerified);
     std::erase_if(copies, [&](const Candidate& one) { return known.knows(one); });
     FineEffort effort = options_.effort(passes_ - 1).fine;
@@ -131,7 +135,7 @@ class Estimator {
   /// rivals, or nearly, and at these.
   void settleChosen(Selection& selection) {
     const ScopedTimer timer(result_.times, "settle");
-    const RefineScene scene{depth_, whole_, result_.noise_mm, enclosure_, stages_};
+    const RefineScene scene = wholeScene();
     std::vector<Candidate> candidates = selection.takeTies();
     refineTies(candidates, database_, scene);
     const std::vector<Candidate> others = selection.takeChosen();
@@ -145,6 +149,10 @@ class Estimator {
   }
 
  private:
+  RefineScene wholeScene() const {
+    return {depth_, whole_, result_.noise_mm, enclosure_, stages_};
+  }
+
   LateralExtent extentOf(const ResidentDepth& resident) {
     const ScopedTimer timer(result_.times, "scene and starts");
     return stages_.extent(resident);
@@ -304,6 +312,7 @@ Estimate estimatePoses(const DepthImage& measured,
                        const EstimateOptions& options,
                        StageSet& stages,
                        EstimateTrace* trace) {
+  EstimateTrace* first_trace = trace;
   options.check();
   measured.camera.check();
   RP_CHECK(!database.objects.empty(), "the database holds no object");
@@ -324,19 +333,20 @@ Estimate estimatePoses(const DepthImage& measured,
   {
     const ScopedTimer timer(result.times, "foreground");
     scene = stages.foreground(measured, foregroundTaskFor(database, bin));
+    result.sensor = host::sensorFacts(measured, scene->on_host.noise_mm);
   }
   const Foreground& on_host = scene->on_host;
-  result.noise_mm = on_host.noise_mm;
+  result.noise_mm = result.sensor.noise_mm;
   result.background = on_host.background;
   if (trace != nullptr) trace->foreground = on_host.mask;
   Estimator estimator(*scene, bin, database, options, stages, result);
-  Selection selection(on_host.depth, database, result.noise_mm, options.min_score);
+  Selection selection(on_host.depth, database, result.noise_mm);
   Image<std::uint8_t> rest = on_host.mask;
-  std::vector<Candidate> chosen;
+  int found = 0;
   // Passes on what is left, until all its starts were tried before, or two found nothing.
   for (int fruitless = 0; fruitless < kFruitlessPasses;) {
-    const Pass pass = estimator.onePass(rest, selection, trace);
-    trace = nullptr;
+    const Pass pass = estimator.onePass(rest, selection, first_trace);
+    first_trace = nullptr;
     std::vector<Candidate> copies;
     {
       const ScopedTimer timer(result.times, "selection");
@@ -346,17 +356,26 @@ Estimate estimatePoses(const DepthImage& measured,
     copies = estimator.alignTurned(std::move(copies), selection);
     const ScopedTimer timer(result.times, "selection");
     selection.add(copies);
-    const std::size_t before = chosen.size();
-    chosen = selection.choose();
-    const bool enough = static_cast<int>(chosen.size()) >= options.max_poses;
+    const int before = found;
+    const std::vector<Candidate> chosen = selection.choose();
+    found = static_cast<int>(std::count_if(chosen.begin(), chosen.end(), [](const Candidate& one) {
+      return one.confidence >= kFound;
+    }));
+    const bool enough = found >= options.max_poses;
     if (pass.starts == 0 || enough || options.max_poses == 1) break;
     rest = on_host.mask;
     selection.takeOut(rest);
-    fruitless = chosen.size() > before ? 0 : fruitless + 1;
+    fruitless = found > before ? 0 : fruitless + 1;
   }
   estimator.settleChosen(selection);
-  for (const Candidate& candidate : selection.choose()) {
+  const std::vector<Candidate> chosen = selection.choose();
+  if (trace != nullptr) {
+    trace->known = selection.known();
+    trace->chosen = chosen;
+  }
+  for (const Candidate& candidate : chosen) {
     if (static_cast<int>(result.poses.size()) >= options.max_poses) break;
+    if (!(candidate.confidence >= options.min_score)) break;
     result.poses.push_back(estimateOf(candidate));
   }
   return result;

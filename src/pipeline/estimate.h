@@ -13,6 +13,7 @@
 #include "stages/check_host.h"
 #include "stages/foreground.h"
 #include "stages/icp_host.h"
+#include "stages/sensor_facts.h"
 #include "stages/stage_set.h"
 
 namespace rangepose {
@@ -47,7 +48,8 @@ struct PoseEstimate {
   float rough_error = 0.0f;  ///< Eq. 1
   int view = 0;
   double confidence = 0.0;  ///< that the pose is right, 0..1
-  CheckResult check;        ///< what the confidence comes from
+  CheckResult check;        ///< of the rendered pose
+  EvidenceTerms evidence{};  ///< what the confidence comes from
 };
 
 /// Pictures of what happened to one object; for dumps and comparisons.
@@ -76,12 +78,17 @@ struct EstimateTrace {
   std::vector<PoseEstimate> coarse;
   std::vector<PoseEstimate> verified;  ///< checked poses, a few of each start; first pass only
   std::vector<ObjectTrace> objects;    ///< one for each object of the database; first pass only
+  /// All poses that the last choice was made from, surest first, each as judged among the others:
+  /// the confidence is not shared with rivals.
+  std::vector<Candidate> known;
+  std::vector<Candidate> chosen;  ///< those of them that were, the surest first
 };
 
 struct Estimate {
   std::vector<PoseEstimate> poses;  ///< best first; empty is a valid answer
   StageTimes times;
-  double noise_mm = 0.0;  ///< estimated depth noise of the image [mm]
+  SensorFacts sensor;  ///< what the image tells of it
+  double noise_mm = 0.0;  ///< sensor.noise_mm: what tolerances go by [mm]
   std::vector<BackgroundPlane> background;
   std::vector<std::string> warnings;  ///< one line each
 };

@@ -15,8 +15,6 @@ namespace {
 /// A part is this wide in a view along a direction [px]; less where the parts lie far apart.
 constexpr double kPartPx = 64.0;
 constexpr double kMaxViewPx = 1024.0;
-/// Slopes steeper than that are not looked at more leniently.
-constexpr double kLeastSlant = 0.3;
 
 /// The same rays as those of the virtual camera, for rendering.
 Camera parallelCamera(const OrthoCamera& ortho) {

@@ -28,7 +28,7 @@ IcpOptions icpOptions(double first_reach_mm, double last_reach_mm, int iteration
   return options;
 }
 
-/// Calls `set(candidate, verdict, object, mean visible area)` for each.
+/// Calls `set(candidate, verdict, mean visible area)` for each.
 template <typename Set>
 void setVerdicts(std::vector<Candidate>& candidates,
                  const std::vector<CheckResult>& verdicts,
@@ -39,7 +39,7 @@ void setVerdicts(std::vector<Candidate>& candidates,
     mean_mm2.push_back(meanVisibleArea(object));
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto object = static_cast<std::size_t>(candidates[i].object);
-    set(candidates[i], verdicts[i], database.objects[object], mean_mm2[object]);
+    set(candidates[i], verdicts[i], mean_mm2[object]);
   }
 }
 
@@ -87,12 +87,7 @@ void judgeWithViews(std::vector<Candidate>& candidates,
     tasks.push_back(
         {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options, true});
   }
-  setVerdicts(candidates,
-              scene.stages.judge(scene.resident, tasks),
-              database,
-              [](Candidate& candidate, const CheckResult& check, const auto&, double mean_mm2) {
-                setVerdict(candidate, check, mean_mm2);
-              });
+  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
 }
 
 void alignWithViews(std::vector<Candidate>& candidates,
@@ -237,7 +232,7 @@ void checkAll(std::vector<Candidate>& candidates,
     candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
   });
   setVerdicts(
-      candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setConfidence);
+      candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setEvidence);
 }
 
 /// Aligns all until they rest, then checks them.
@@ -266,8 +261,8 @@ void unlessWorse(std::vector<Candidate>& candidates, const Refine& refine) {
   }
 }
 
-/// Odds of e^-2: no long alignment makes such a pose right.
-constexpr double kHopeless = -2.0;
+/// Odds of e^-4: no long alignment makes such a pose right.
+constexpr double kHopeless = -4.0;
 constexpr int kFinePoints = 900;  // of a surface, for a pose that is to rest
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "database/reference_database.h"
 #include "pipeline/enclosure.h"
+#include "pipeline/evidence.h"
 #include "stages/check_host.h"
 #include "stages/stage_set.h"
 
@@ -28,7 +29,8 @@ struct Candidate {
   Pose rough;
   Pose pose;
   CheckResult check;
-  double outside = 0.0;  ///< Enclosure::outsideShare, once rendered and checked
+  double outside = 0.0;      ///< Enclosure::outsideShare, once rendered and checked
+  EvidenceTerms evidence{};  ///< likewise
   /// What candidates are ordered by: score and how much of the scene it explains; once rendered and
   /// checked the log odds of being right.
   double rank = 0.0;

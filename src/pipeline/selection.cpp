@@ -14,11 +14,12 @@ namespace {
 
 constexpr double kSame = 0.05;          // of the diameter
 constexpr double kMostShared = 0.25;    // of the pixels that a pose explains
-constexpr double kFaint = 0.08;         // confidence below which a pose is nobody's rival
-constexpr double kWorthTurning = 0.25;  // confidence
+constexpr double kFaint = 0.005;        // confidence below which a pose is nobody's rival
+constexpr double kListed = 0.02;        // confidence from which on a pose can be chosen
+constexpr double kWorthTurning = 0.03;  // confidence
 constexpr double kRival = 0.5;          // of the pixels of the larger of two poses
 constexpr double kFound = 0.5;          // confidence from which on a part hides others
-constexpr double kSure = 0.93;          // confidence from which on nobody looks there again
+constexpr double kSure = 0.8;           // confidence from which on nobody looks there again
 
 PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   if (pixels.empty()) return {};
@@ -34,16 +35,16 @@ PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
 
 Selection::Selection(const DepthImage& depth,
                      const ReferenceDatabase& database,
-                     double noise_mm,
-                     double min_confidence)
+                     double noise_mm)
     : depth_(depth),
       database_(database),
       noise_mm_(noise_mm),
-      min_confidence_(min_confidence),
       distances_(database.objects.begin(), database.objects.end()),
       owners_(depth.depth_mm.width(), depth.depth_mm.height(), kNobody) {
-  for (const ReferenceObject& object : database.objects)
+  for (const ReferenceObject& object : database.objects) {
     moments_.push_back(areaMoments(object.mesh));
+    mean_visible_mm2_.push_back(meanVisibleArea(object));
+  }
 }
 
 const Selection::Entry* Selection::find(const Candidate& candidate) const {
@@ -60,7 +61,7 @@ bool Selection::knows(const Candidate& candidate) const { return find(candidate)
 void Selection::add(const std::vector<Candidate>& candidates) {
   std::vector<Entry*> added;
   for (const Candidate& candidate : candidates) {
-    if (!(candidate.confidence >= std::min(kFaint, min_confidence_))) continue;
+    if (!(candidate.confidence >= kFaint)) continue;
     if (const Entry* known = find(candidate)) {
       if (known->alone.rank >= candidate.rank) continue;
       std::erase(added, known);
@@ -115,12 +116,14 @@ void Selection::judgeAmongOthers() {
   }
   for (const auto& entry : entries_) {
     const ReferenceObject& object = objectOf(*entry);
-    const double mean_mm2 = meanVisibleArea(object);
+    const double mean_mm2 =
+        mean_visible_mm2_[static_cast<std::size_t>(entry->alone.object)];
     if (entry->alone.check.explained_mm2 < kEnough * mean_mm2) continue;
     const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry->pixels, entry->judged.buried, slack_mm);
     if (share > 0.0) {
-      setConfidence(entry->candidate, withCovered(entry->alone.check, share), object, mean_mm2);
+      entry->candidate.check = withCovered(entry->alone.check, share);
+      setTerm(entry->candidate, EvidenceTerm::kBuried, buriedTerm(entry->candidate.check.buried));
     }
   }
   orderByRank();
@@ -202,7 +205,7 @@ std::vector<Selection::Entry*> Selection::chosen() const {
     return static_cast<double>(shared) <= kMostShared * static_cast<double>(entry.pixels.size());
   };
   for (const auto& entry : entries_) {
-    if (!(entry->candidate.confidence >= min_confidence_) || !isFree(*entry)) continue;
+    if (!(entry->candidate.confidence >= kListed) || !isFree(*entry)) continue;
     const double close_mm = closeMm(*entry);
     Entry* best = entry.get();
     double most = 0.0;
@@ -227,7 +230,7 @@ std::vector<Candidate> Selection::choose() const {
     for (const Entry* rival : entry->rivals)
       all += odds * std::exp(preference(*rival, *entry, close_mm));
     const double confidence = odds / all;
-    if (!(confidence >= min_confidence_)) continue;
+    if (!(confidence >= kListed)) continue;
     candidates.push_back(entry->candidate);
     candidates.back().confidence = confidence;
   }
@@ -235,6 +238,12 @@ std::vector<Candidate> Selection::choose() const {
       candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
         return a.confidence > b.confidence;
       });
+  return candidates;
+}
+
+std::vector<Candidate> Selection::known() const {
+  std::vector<Candidate> candidates;
+  for (const auto& entry : entries_) candidates.push_back(entry->candidate);
   return candidates;
 }
 

@@ -20,10 +20,7 @@ namespace rangepose {
 /// found later.
 class Selection {
  public:
-  Selection(const DepthImage& depth,
-            const ReferenceDatabase& database,
-            double noise_mm,
-            double min_confidence);
+  Selection(const DepthImage& depth, const ReferenceDatabase& database, double noise_mm);
 
   /// Whether a pose like this one, symmetric copies included, is there already.
   bool knows(const Candidate& candidate) const;
@@ -32,8 +29,10 @@ class Selection {
   /// The best pose for the surface of the surest one, then of the surest that shares little of what
   /// it explains with one before, and so on. The confidence of each is its share of the odds of all
   /// poses of its object that explain the same surface: where two are as good as each other,
-  /// neither is sure. Only those whose confidence is large enough, the surest first.
+  /// neither is sure. Only those that are not hopeless, the surest first.
   std::vector<Candidate> choose() const;
+  /// All poses, each as judged among the others, the surest first.
+  std::vector<Candidate> known() const;
   /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
   /// aligned and checked; those of a pose have a `window` of their own.
   std::vector<Candidate> turnedCopies();
@@ -96,7 +95,7 @@ class Selection {
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
   double noise_mm_;
-  double min_confidence_;
+  std::vector<double> mean_visible_mm2_;         ///< by object
   std::vector<PoseDistance> distances_;          ///< by object
   std::vector<AreaMoments> moments_;             ///< by object
   std::vector<std::unique_ptr<Entry>> entries_;  ///< surest first

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "core/camera.h"
-#include "geometry/stability.h"
 #include "stages/device.h"
 #include "stages/posed_points_core.h"
 
@@ -33,14 +32,11 @@ struct CheckResult {
   double outline = 0.0;          ///< share of the outline where the data ends with the model, 0..1
   double outline_covered = 0.0;  ///< share of the outline of which nothing can be said: covered, or
                                  ///< no measurement; counts half
-  double flat = 0.0;             ///< length of the mean normal of what is near the data, 0..1: 1
-                                 ///< where that is one flat face
-  double jumps_met = 0.0;     ///< share of the jumps of depth inside of the outline that are in the
-                              ///< data as well, 0..1; 0.5 without any
-  double jumps_missed = 0.0;  ///< jumps in place of which the data is level [root of the pixels]
-  /// Of what agrees, and of the outline where it was seen to end, in the camera frame.
-  StabilityCovariance covariance;
-  double stability = 0.0;      ///< see stability(): of that, 0..1; set by the pipeline
+  double seen_through = 0.0;     ///< in front of the data by more than twice the tolerance, and not
+                                 ///< beside an outline or a jump, where sensors smear depth
+  double relief = 0.0;  ///< reliefOf() what agrees: how much likelier it is with the part there than
+                        ///< with a smooth surface, logarithm for a pixel, -1..3
+  double inner_px = 0.0;  ///< agreeing pixels that are not beside an outline or a jump [px]
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
   int pixels = 0;              ///< rendered pixels
@@ -59,9 +55,6 @@ struct PixelTally {
   Number weak{};
   Number residual_mm{};
   Number agreeing{};
-  Number normal_x{};
-  Number normal_y{};
-  Number normal_z{};
   Number pixels{};
 };
 
@@ -96,6 +89,9 @@ RP_HD CheckRules checkRules(const CheckOptions& options, const Camera& camera, i
           normal_reach};
 }
 
+/// Slopes steeper than that, by the cosine, are not looked at more leniently.
+inline constexpr double kLeastSlant = 0.3;
+
 /// Where one pixel of a model (V = float) or eight (Float8, see lanes.h) lie from the data.
 template <typename V>
 struct GapOf {
@@ -110,7 +106,8 @@ RP_LANES GapOf<V> gapOf(const GapLimits& limits,
                         const V& model_mm,
                         const V& seen_mm) {
   const V slant = magnitude(normal_z);
-  const V distance = magnitude(seen_mm - model_mm) * pick(slant > 0.3f, slant, all<V>(0.3f));
+  const V least = all<V>(static_cast<float>(kLeastSlant));
+  const V distance = magnitude(seen_mm - model_mm) * pick(slant > least, slant, least);
   const auto near = distance <= limits.tolerance_mm;
   const auto off = both(known, !near);
   const auto before = seen_mm > model_mm;
@@ -193,8 +190,7 @@ RP_LANES PixelVerdict<V> judgePixel(const CheckRules& rules,
 template <typename Number, typename V>
 RP_LANES void addVerdict(PixelTally<Number>& tally,
                          const typename LanesOf<V>::Mask& wanted,
-                         const PixelVerdict<V>& verdict,
-                         const Lane3<V>& normal) {
+                         const PixelVerdict<V>& verdict) {
   const V one = all<V>(1.0f);
   const GapOf<V>& gap = verdict.gap;
   tally.pixels += pick(wanted, one, V{});
@@ -206,9 +202,6 @@ RP_LANES void addVerdict(PixelTally<Number>& tally,
   tally.explained += verdict.agreement;
   tally.weak += pick(gap.agrees, V(1.0f - verdict.agreement), V{});
   tally.residual_mm += pick(gap.agrees, gap.distance_mm, V{});
-  tally.normal_x += pick(gap.agrees, normal.x, V{});
-  tally.normal_y += pick(gap.agrees, normal.y, V{});
-  tally.normal_z += pick(gap.agrees, normal.z, V{});
 }
 
 /// Points of an object; those of rims must not be wanted.
@@ -226,7 +219,7 @@ RP_LANES void judgePoints(const CheckRules& rules,
   const typename LanesOf<V>::Int u = pick(pixel.inside, pixel.u, none);
   const PixelVerdict<V> verdict =
       judgePixel(rules, read, pixel.in_front, u, pixel.v, normal, point.z);
-  addVerdict(tally, pixel.in_front, verdict, normal);
+  addVerdict(tally, pixel.in_front, verdict);
 }
 
 /// Shares and score; `outline_factor` is what the outline leaves of the score.
@@ -246,8 +239,6 @@ RP_HD CheckResult summarizeCheck(const PixelTally<Number>& tally,
   result.missing = tally.missing / all;
   result.weak = tally.weak / all;
   result.explained_mm2 = result.explained * visible_mm2;
-  const glm::dvec3 normal(tally.normal_x, tally.normal_y, tally.normal_z);
-  result.flat = tally.agreeing > 0.0 ? glm::length(normal) / tally.agreeing : 0.0;
   result.residual_mm = tally.agreeing > 0.0 ? tally.residual_mm / tally.agreeing : 0.0;
   const double against = options.contradicted * result.contradicted +
                          options.missing * result.missing + options.hidden * result.hidden +

@@ -1,13 +1,13 @@
-// The verdict on a rendered surface: its pixels, its outline and its jumps of depth. Shared by host
-// and CUDA.
+// The verdict on a rendered surface: its pixels, its outline and its relief. Shared by host and
+// CUDA.
 #pragma once
 
 #include <cmath>
 
 #include "core/camera.h"
 #include "geometry/mesh.h"
-#include "geometry/stability.h"
 #include "stages/check_core.h"
+#include "stages/relief_core.h"
 #include "stages/surface.h"
 
 namespace rangepose {
@@ -19,10 +19,9 @@ struct SurfaceTally {
   double border_ends = 0.0;
   double border_covered = 0.0;
   double visible_mm2 = 0.0;
-  double jumps = 0.0;
-  double jumps_met = 0.0;
-  double jumps_missed = 0.0;
-  StabilityCovariance covariance;  ///< sums
+  double seen_through = 0.0;
+  double inner = 0.0;
+  ReliefSums relief;
 };
 
 /// Reads the measured surface at camera pixels, see posed_points_core.h.
@@ -56,9 +55,9 @@ struct RenderedSurface {
   const Sphere& sphere;  ///< around the object, in the camera frame
   const CheckRules& rules;
 
-  static constexpr int kOut = 2;  ///< what lies beside a pixel is looked at so far away [px]
+  static constexpr int kOut = 2;  ///< what lies beside an outline is looked at so far away [px]
 
-  /// One pixel, its part of the outline and the jumps of depth beside it.
+  /// One pixel, its part of the outline and of the relief.
   RP_HD void judge(const SurfaceTexel& texel, int x, int y, SurfaceTally& tally) const {
     if (texel.w <= 0.0f) return;
     const double width_mm = spacingMm(texel);
@@ -66,12 +65,47 @@ struct RenderedSurface {
     const Lane3<float> normal{texel.x, texel.y, texel.z};
     const PixelVerdict<float> verdict =
         judgePixel(rules, measured.read, true, u(x), v(y), normal, texel.w);
-    addVerdict(tally.pixels, true, verdict, normal);
-    if (verdict.gap.agrees) tally.covariance.add(inRadii(texel, x, y), glm::dvec3(texel), 1.0);
+    addVerdict(tally.pixels, true, verdict);
     judgeBorder(texel, x, y, tally);
-    const int beside = window.step < 2 ? kOut : 1;
-    judgeJump(texel, x, y, beside, 0, tally);
-    judgeJump(texel, x, y, 0, beside, tally);
+    judgeRelief(texel, x, y, verdict.gap.agrees, tally);
+  }
+
+  /// Whether an outline or a jump of depth of the surface itself runs beside a pixel: sensors smear
+  /// depth there, and shift it by a pixel.
+  RP_HD bool isRim(const SurfaceTexel& texel, int x, int y) const {
+    const double depth_mm = static_cast<double>(texel.w);
+    // Of less, a slope or what a pose is off may be the cause.
+    const double jump_mm = 1.5 * rules.options.tolerance_mm + 3.0 * spacingMm(texel);
+    for (int direction = 0; direction < 4; ++direction) {
+      const int dx = direction == 0 ? 1 : direction == 1 ? -1 : 0;
+      const int dy = direction == 2 ? 1 : direction == 3 ? -1 : 0;
+      const double beside = static_cast<double>(surface_depth(x + dx, y + dy));
+      if (beside <= 0.0 || std::abs(beside - depth_mm) > jump_mm) return true;
+    }
+    return false;
+  }
+
+  /// What a pixel inside of the surface says, whatever the sensor does to jumps.
+  RP_HD void judgeRelief(
+      const SurfaceTexel& texel, int x, int y, bool agrees, SurfaceTally& tally) const {
+    constexpr double kWide = 2.0;  // tolerances
+    const double seen = measured.at(u(x), v(y));
+    if (seen == 0.0) return;
+    const double slope = static_cast<double>(std::abs(texel.z));
+    const double slant = slope > kLeastSlant ? slope : kLeastSlant;
+    const double off_mm = (seen - static_cast<double>(texel.w)) * slant;
+    const double limit_mm = kWide * rules.options.tolerance_mm;
+    if (off_mm < -limit_mm || isRim(texel, x, y)) return;
+    if (agrees) tally.inner += window.step * window.step;
+    if (off_mm > limit_mm) {
+      tally.seen_through += 1.0;
+      return;
+    }
+    tally.relief.add(2.0 * x / window.width - 1.0,
+                     2.0 * y / window.height - 1.0,
+                     seen - sphere.center_mm.z,
+                     off_mm,
+                     slant);
   }
 
   /// Whether the data goes on beyond the outline at a pixel: near its depth and in its slope, where
@@ -102,8 +136,6 @@ struct RenderedSurface {
         tally.border_ends += 1.0;
       } else if (outside > model + 1.5 * tolerance_mm) {
         tally.border_ends += 1.0;
-        if (inside != 0.0 && inside < model + 1.5 * tolerance_mm)
-          addEnd(texel, x, y, dx, dy, tally);
       } else if (outside < model - 1.5 * tolerance_mm) {
         tally.border_ends += 0.5;
         tally.border_covered += 1.0;
@@ -115,35 +147,8 @@ struct RenderedSurface {
             measured.riseAlong(normal, u(x), v(y), u(x - kOut * dx), v(y - kOut * dy));
         if (out_sine > kBentSine && back_sine < kBentSine) {
           tally.border_ends += 1.0;
-          addEnd(texel, x, y, dx, dy, tally);
         }
       }
-    }
-  }
-
-  /// A part whose inner jumps of depth are in the data as well is not there by chance. `dx` and
-  /// `dy` lead to the pixel on the other side.
-  RP_HD void judgeJump(
-      const SurfaceTexel& texel, int x, int y, int dx, int dy, SurfaceTally& tally) const {
-    const double tolerance_mm = rules.options.tolerance_mm;
-    const double here = static_cast<double>(texel.w);
-    const double there = static_cast<double>(surface_depth(x + dx, y + dy));
-    const double jump = there - here;
-    // Of less, a slope or what a pose is off may be the cause.
-    if (there <= 0.0 || std::abs(jump) < 1.5 * tolerance_mm + (dx + dy) * spacingMm(texel)) return;
-    const double seen_here = measured.at(u(x), v(y));
-    const double seen_there = measured.at(u(x + dx), v(y + dy));
-    if (seen_here == 0.0 || seen_there == 0.0) return;
-    const double off_here = std::abs(seen_here - here);
-    const double off_there = std::abs(seen_there - there);
-    if (off_here > 3.0 * tolerance_mm && off_there > 3.0 * tolerance_mm) return;
-    tally.jumps += 1.0;
-    if ((jump > 0.0 ? off_here : off_there) >= tolerance_mm) return;  // the nearer side
-    const double seen_jump = seen_there - seen_here;
-    if (std::abs(seen_jump - jump) < tolerance_mm) {
-      tally.jumps_met += 1.0;
-    } else if (std::abs(seen_jump) < 0.5 * std::abs(jump)) {
-      tally.jumps_missed += 1.0;
     }
   }
 
@@ -153,20 +158,6 @@ struct RenderedSurface {
   RP_HD double spacingMm(const SurfaceTexel& texel) const {
     return window.step * measured.camera.pixelSpacingMm(static_cast<double>(texel.w));
   }
-  RP_HD glm::dvec3 inRadii(const SurfaceTexel& texel, int x, int y) const {
-    const glm::dvec3 point = measured.camera.unproject(u(x), v(y), static_cast<double>(texel.w));
-    return (point - sphere.center_mm) / sphere.radius_mm;
-  }
-
-  /// An outline holds the part across itself. It is a line where faces are areas: one of its pixels
-  /// weighs as the strip of the face behind it, a fraction of the radius deep.
-  RP_HD void addEnd(
-      const SurfaceTexel& texel, int x, int y, int dx, int dy, SurfaceTally& tally) const {
-    constexpr double kDepth = 0.5;  // radii
-    tally.covariance.add(inRadii(texel, x, y),
-                         glm::dvec3(dx, dy, 0.0),
-                         kDepth * sphere.radius_mm / spacingMm(texel));
-  }
 };
 
 /// Share of the outline where the data ends with the model.
@@ -174,20 +165,20 @@ RP_HD double outlineOf(const SurfaceTally& tally) {
   return tally.border > 0.0 ? tally.border_ends / tally.border : 0.0;
 }
 
+/// Below this nothing is measured [tolerances].
+inline constexpr double kLeastDeviation = 0.01;
+
 /// Of a rendered surface.
 RP_HD CheckResult surfaceVerdict(const SurfaceTally& tally, const CheckOptions& options) {
-  constexpr double kFewJumps = 2.0;  // of which no share is known
   const PixelTally<double>& pixels = tally.pixels;
   const double outline = outlineOf(tally);
   CheckResult result = summarizeCheck(
       pixels, options, 1.0 - options.border + options.border * outline, tally.visible_mm2);
   result.outline = outline;
   result.outline_covered = tally.border > 0.0 ? tally.border_covered / tally.border : 0.0;
-  result.jumps_met = (tally.jumps_met + kFewJumps) / (tally.jumps + 2.0 * kFewJumps);
-  result.jumps_missed = tally.jumps_missed / std::sqrt(pixels.pixels < 1.0 ? 1.0 : pixels.pixels);
-  const double agreeing = pixels.agreeing < 1.0 ? 1.0 : pixels.agreeing;
-  result.covariance = tally.covariance;
-  result.covariance.scale(1.0 / agreeing);
+  result.seen_through = pixels.pixels > 0.0 ? tally.seen_through / pixels.pixels : 0.0;
+  result.relief = reliefOf(tally.relief, kLeastDeviation * options.tolerance_mm);
+  result.inner_px = tally.inner;
   return result;
 }
 

@@ -10,7 +10,6 @@
 #include "core/pose.h"
 #include "geometry/flat_faces.h"
 #include "geometry/mesh.h"
-#include "geometry/stability.h"
 #include "geometry/symmetry.h"
 
 namespace rangepose {
@@ -50,7 +49,6 @@ struct ReferenceObject {
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
   double thickness_mm = 0.0;  ///< smallest extent, of sheet metal that of the sheet; 0: not known
   PlaneExtent flat_face;      ///< largest length and width of its flat faces; 0: not known
-  StabilityCovariance stability;  ///< of all its faces
   double pixel_mm = 0.0;          ///< width of a pixel of a view [mm]
   int size = 64;                  ///< a tile is size x size pixels
   int edt_passes = 0;  ///< passes of the distance transform: EDT values reach edt_passes + 1

@@ -129,10 +129,9 @@ void expectSame(const CheckResult& actual,
   EXPECT_NEAR(actual.explained_mm2, expected.explained_mm2, tolerance * 1.0e4);
   EXPECT_EQ(actual.pixels, expected.pixels);
   EXPECT_NEAR(actual.score, expected.score, tolerance);
-  EXPECT_EQ(actual.jumps_met, expected.jumps_met);
-  EXPECT_EQ(actual.jumps_missed, expected.jumps_missed);
-  for (int i = 0; i < 21; ++i)
-    EXPECT_NEAR(actual.covariance.upper[i], expected.covariance.upper[i], tolerance);
+  EXPECT_EQ(actual.seen_through, expected.seen_through);
+  EXPECT_EQ(actual.inner_px, expected.inner_px);
+  EXPECT_NEAR(actual.relief, expected.relief, 1e-6);
 }
 
 TEST_P(RefineBodyTest, VerdictOnPointsIsTheHosts) {

@@ -75,7 +75,7 @@ class OcclusionTest : public testing::Test {
                     image_,
                     task.sphere(),
                     task.check);
-    setConfidence(candidate, check, of, meanVisibleArea(of));
+    setEvidence(candidate, check, meanVisibleArea(of));
     return candidate;
   }
 
@@ -126,7 +126,7 @@ TEST_F(OcclusionTest, ARivalForTheSameSurfaceHidesNothing) {
 }
 
 TEST_F(OcclusionTest, ThePartBelowIsSurerOnceThePartOnItIsFound) {
-  Selection selection(image_, database_, kNoiseMm, 0.0);
+  Selection selection(image_, database_, kNoiseMm);
   const auto confidenceOfBlock = [&] {
     for (const Candidate& candidate : selection.choose())
       if (candidate.object == 0) return candidate.confidence;
@@ -136,9 +136,9 @@ TEST_F(OcclusionTest, ThePartBelowIsSurerOnceThePartOnItIsFound) {
   ASSERT_GT(block.check.buried, 0.2);
   selection.add({block});
   const double alone = confidenceOfBlock();
-  EXPECT_LT(alone, 0.5);
+  EXPECT_LT(alone, 0.7);
   selection.add({checked(1)});
-  EXPECT_GT(confidenceOfBlock(), alone + 0.3);
+  EXPECT_GT(confidenceOfBlock(), alone + 0.1);
 }
 
 }  // namespace

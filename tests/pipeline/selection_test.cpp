@@ -11,13 +11,22 @@
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
 #include "pipeline/candidates.h"
-#include "pipeline/confidence.h"
+#include "pipeline/evidence.h"
 #include "stages/reference_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
 
 namespace rangepose {
 namespace {
+
+constexpr double kNoiseMm = 0.1;
+
+/// Gives a pose the evidence of which these are the log odds.
+void setRank(Candidate& candidate, double rank) {
+  candidate.check.inner_px = 1e9;
+  candidate.evidence = {};
+  setTerm(candidate, EvidenceTerm::kOne, rank / evidenceWeights()[0]);
+}
 
 class SelectionTest : public testing::Test {
  protected:
@@ -50,8 +59,7 @@ class SelectionTest : public testing::Test {
   Candidate candidateAt(double x_mm, double rank) const {
     Candidate candidate;
     candidate.pose = partAt(x_mm);
-    candidate.rank = rank;
-    candidate.confidence = probabilityOf(rank);
+    setRank(candidate, rank);
     return candidate;
   }
 
@@ -65,7 +73,7 @@ class SelectionTest : public testing::Test {
 TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
   const double all = left();
   ASSERT_GT(all, 0.0);
-  Selection selection(image_, database_, 0.1, 0.5);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({candidateAt(-60.0, 5.0)});
   selection.takeOut(foreground_);
   EXPECT_NEAR(left(), 0.5 * all, 0.02 * all);
@@ -77,7 +85,7 @@ TEST_F(SelectionTest, ARightPoseTakesItsPartAndNoOther) {
 
 TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
   for (const bool surer_first : {true, false}) {
-    Selection selection(image_, database_, 0.1, 0.5);
+    Selection selection(image_, database_, kNoiseMm);
     const Candidate right = candidateAt(-60.0, 3.0);
     // Shifted by more than what counts as the same pose, on the same surface.
     const Candidate shifted = candidateAt(-57.0, 1.0);
@@ -86,15 +94,15 @@ TEST_F(SelectionTest, OfTwoPosesOfTheSamePartTheSurerOneIsChosen) {
     selection.add({surer_first ? shifted : right});
     const std::vector<Candidate> chosen = selection.choose();
     ASSERT_EQ(chosen.size(), 1u) << "one part would be picked twice";
-    EXPECT_EQ(chosen[0].rank, 3.0) << "whichever was found first";
+    EXPECT_NEAR(chosen[0].rank, 3.0, 1e-9) << "whichever was found first";
   }
 }
 
 TEST_F(SelectionTest, OfLikePosesTheSurestStays) {
-  Selection selection(image_, database_, 0.1, 0.5);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({candidateAt(-60.0, 1.0), candidateAt(-60.1, 2.0), candidateAt(-60.2, 0.5)});
   ASSERT_EQ(selection.choose().size(), 1u);
-  EXPECT_EQ(selection.choose()[0].rank, 2.0);
+  EXPECT_NEAR(selection.choose()[0].rank, 2.0, 1e-9);
   EXPECT_TRUE(selection.knows(candidateAt(-60.05, 0.0))) << "it need not be checked again";
 }
 
@@ -111,25 +119,25 @@ class TurnedBarTest : public testing::Test {
     image_.camera = test::pinholeCamera(320, 240, 300.0);
     image_.depth_mm = Image<float>(320, 240, 0.0f);
     test::measure(image_, object.mesh, right_.pose);
+    setRank(right_, 2.0);
+    setRank(turned_, 2.2);
   }
 
-  static Candidate laid(double angle_rad, double rank) {
+  static Candidate laid(double angle_rad) {
     Candidate candidate;
     candidate.pose.rotation = rotationFromVector({0.0, 0.0, angle_rad});
     candidate.pose.translation_mm = {5.0, -8.0, 400.0};
-    candidate.rank = rank;
-    candidate.confidence = probabilityOf(rank);
     return candidate;
   }
 
   std::vector<Candidate> chosen() const {
-    Selection selection(image_, database_, 0.1, 0.4);
+    Selection selection(image_, database_, kNoiseMm);
     selection.add({right_, turned_});
     return selection.choose();
   }
 
-  const Candidate right_ = laid(0.0, 2.0);
-  const Candidate turned_ = laid(std::numbers::pi, 2.2);
+  Candidate right_ = laid(0.0);
+  Candidate turned_ = laid(std::numbers::pi);
   ReferenceDatabase database_;
   DepthImage image_;
 };
@@ -149,14 +157,14 @@ TEST_F(TurnedBarTest, OfRivalsTheOneThatFitsMoreCloselyWins) {
     ASSERT_GT(toleranceFor(database_.objects[0], 0.1), 0.8);
     const std::vector<Candidate> poses = chosen();
     ASSERT_EQ(poses.size(), 1u) << "a part in full view is lost to a worse pose of it";
-    EXPECT_EQ(poses[0].rank, 2.0) << "step of " << step_mm << " mm";
+    EXPECT_NEAR(poses[0].rank, 2.0, 1e-9) << "step of " << step_mm << " mm";
     EXPECT_NEAR(poses[0].confidence, probabilityOf(2.0), 0.01);
   }
 }
 
 TEST_F(TurnedBarTest, PosesThatTheImageHardlyTellsApartAreTakenOutForACloserLook) {
   show(0.0);
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({right_, turned_});
   const std::vector<Candidate> ties = selection.takeTies();
   ASSERT_EQ(ties.size(), 2u);
@@ -167,11 +175,11 @@ TEST_F(TurnedBarTest, PosesThatTheImageHardlyTellsApartAreTakenOutForACloserLook
 
 TEST_F(TurnedBarTest, WhatIsChosenIsTakenOutAsItWasFound) {
   show(5.0);
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({right_, turned_});
   const std::vector<Candidate> taken = selection.takeChosen();
   ASSERT_EQ(taken.size(), 1u);
-  EXPECT_EQ(taken[0].rank, right_.rank) << "what the choice made of it would be counted twice";
+  EXPECT_NEAR(taken[0].rank, right_.rank, 1e-9) << "what the choice made of it would be counted twice";
   EXPECT_FALSE(selection.knows(right_)) << "it would stay as it was";
   EXPECT_TRUE(selection.knows(turned_)) << "without its rivals a pose is surer than it should be";
   EXPECT_TRUE(selection.takeChosen().empty());
@@ -183,7 +191,7 @@ Pose halfTurn() { return {rotationFromVector({0.0, 0.0, std::numbers::pi}), glm:
 TEST_F(TurnedBarTest, TheTwinOfAChosenPoseLiesOnIt) {
   show(0.0);
   database_.objects[0].twins = {halfTurn()};
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   EXPECT_TRUE(selection.twinsOfChosen().empty());
   selection.add({right_});
   const std::vector<Candidate> twins = selection.twinsOfChosen();
@@ -197,7 +205,7 @@ TEST_F(TurnedBarTest, ARivalThatWasLeftALittleOffGivesWayToTheTwin) {
   database_.objects[0].twins = {halfTurn()};
   Candidate off = turned_;
   off.pose.translation_mm += glm::dvec3(1.5, 0.5, 0.6);
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({right_, off});
   ASSERT_EQ(selection.choose().size(), 1u);
   EXPECT_GT(selection.choose()[0].confidence, 0.7)
@@ -212,7 +220,7 @@ TEST_F(TurnedBarTest, ATwinThatThePixelsAreAgainstDoesNotReplaceAnything) {
   show(0.0);
   database_.objects[0].twins = {halfTurn()};
   database_.objects[0].twins[0].translation_mm = {1.5, 0.5, 0.6};
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({right_, turned_});
   selection.addTwins(selection.twinsOfChosen());
   ASSERT_EQ(selection.choose().size(), 1u);
@@ -221,32 +229,32 @@ TEST_F(TurnedBarTest, ATwinThatThePixelsAreAgainstDoesNotReplaceAnything) {
 
 TEST_F(TurnedBarTest, WhatIsDecidedIsNotLookedAtAgain) {
   show(5.0);
-  Selection selection(image_, database_, 0.1, 0.4);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({right_, turned_});
   EXPECT_TRUE(selection.takeTies().empty());
   EXPECT_EQ(selection.choose().size(), 1u);
 }
 
 TEST_F(SelectionTest, WhereAPoseIsLikelyButNotSureASecondLookIsTaken) {
-  Selection selection(image_, database_, 0.1, 0.5);
+  Selection selection(image_, database_, kNoiseMm);
   const double before = left();
-  selection.add({candidateAt(-60.0, 2.0)});
+  selection.add({candidateAt(-60.0, 1.0)});
   EXPECT_EQ(selection.choose().size(), 1u);
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), before) << "a wrong pose keeps the right one from being found";
 }
 
-TEST_F(SelectionTest, UnsurePosesClaimNothing) {
-  Selection selection(image_, database_, 0.1, 0.5);
+TEST_F(SelectionTest, HopelessPosesClaimNothing) {
+  Selection selection(image_, database_, kNoiseMm);
   const double before = left();
-  selection.add({candidateAt(-60.0, -1.0)});
+  selection.add({candidateAt(-60.0, -5.0)});
   EXPECT_TRUE(selection.choose().empty());
   selection.takeOut(foreground_);
   EXPECT_EQ(left(), before);
 }
 
 TEST_F(SelectionTest, EachPoseIsTurnedOnceAndHopelessOnesNever) {
-  Selection selection(image_, database_, 0.1, 0.5);
+  Selection selection(image_, database_, kNoiseMm);
   selection.add({candidateAt(-60.0, 2.0), candidateAt(60.0, -3.5)});
   const std::vector<Candidate> copies = selection.turnedCopies();
   ASSERT_FALSE(copies.empty());

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/stability.h"
 #include "stages/check_host.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
@@ -210,22 +209,6 @@ TEST(CheckTest, AnEdgeAtWhichAPartTouchesTheTableIsAnEndOfItsOutline) {
   EXPECT_LT(result.outline_covered, 0.05);
 }
 
-TEST(CheckTest, OneFaceIsFlatAndACornerIsNot) {
-  const Mesh cube = test::meshOf({{{-20, -20, -20}, {20, 20, 20}}});
-  const auto flat = [&](const glm::dmat3& rotation) {
-    DepthImage image{test::pinholeCamera(320, 240, 600.0), {}};
-    const Pose pose{rotation, {0.0, 0.0, 900.0}};
-    test::measure(image, cube, pose);
-    const SurfaceWindow window = test::wholeWindow(image.camera);
-    return checkOf(cube, image, pose, window).flat;
-  };
-  EXPECT_NEAR(flat(glm::dmat3(1.0)), 1.0, 1e-6);
-  // Along a diagonal three faces are as large as each other: their mean normal is that long.
-  const double along_diagonal = 1.0 / std::sqrt(3.0);
-  EXPECT_NEAR(flat(test::looking({1.0, 1.0, 1.0})), along_diagonal, 0.02)
-      << "a flat face could be laid on any other";
-}
-
 /// A step of 20 mm between two plates, seen from above, and data that shows a part of it.
 struct Step {
   Mesh mesh = test::meshOf({{{-30, -30, 0}, {0, 30, 2}}, {{0, -30, 20}, {30, 30, 22}}});
@@ -235,47 +218,47 @@ struct Step {
   CheckResult check() const { return checkOf(mesh, image, pose, test::wholeWindow(image.camera)); }
 };
 
-TEST(CheckTest, JumpsInsideOfThePartAreMetWhereTheDataJumpsToo) {
+TEST(CheckTest, AStepThatIsInTheDataHasReliefAndAFlatFaceHasNone) {
   Step step;
-  const CheckResult right = step.check();
-  EXPECT_GT(right.jumps_met, 0.95) << "the surest sign of a part that lies half hidden";
-  EXPECT_EQ(right.jumps_missed, 0.0);
-  // The data goes on level at the height of the nearer plate.
+  EXPECT_GT(step.check().relief, 2.0) << "the surest sign of a part would not count";
+  // The data goes on level at the height of the nearer plate, as another part's would.
   for (float& depth : step.image.depth_mm) depth = depth > 0.0f ? 478.0f : 0.0f;
-  const CheckResult level = step.check();
-  EXPECT_LT(level.jumps_met, 0.05);
-  EXPECT_GT(level.jumps_missed, 0.5);
-}
-
-TEST(CheckTest, JumpsSayNothingWhereThereAreNoneOrTheyCannotBeSeen) {
+  EXPECT_LT(step.check().relief, 0.1) << "a part would be found on any plate";
   const Mesh plate = test::plateMesh(60.0, 40.0);
-  DepthImage image{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 500.0f)};
-  const CheckResult none =
-      checkOf(plate, image, {glm::dmat3(1.0), {0.0, 0.0, 500.0}}, test::wholeWindow(image.camera));
-  EXPECT_EQ(none.jumps_met, 0.5);
-  EXPECT_EQ(none.jumps_missed, 0.0);
-  Step step;  // the farther plate was not measured
-  for (float& depth : step.image.depth_mm) depth = depth < 485.0f ? depth : 0.0f;
-  EXPECT_EQ(step.check().jumps_met, 0.5);
-  EXPECT_EQ(step.check().jumps_missed, 0.0);
+  const DepthImage level{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 500.0f)};
+  const CheckResult flat =
+      checkOf(plate, level, {glm::dmat3(1.0), {0.0, 0.0, 500.0}}, test::wholeWindow(level.camera));
+  EXPECT_LT(flat.relief, 0.1) << "a face that lies on a wall would be sure";
 }
 
-/// Of a plate that faces the camera.
-double stabilityOfPlate(const DepthImage& image) {
-  const Mesh plate = test::meshOf({{{-30, -20, 0}, {30, 20, 4}}});
-  const Pose pose{rotationFromVector({std::numbers::pi, 0.0, 0.0}), {0.0, 0.0, 504.0}};
-  const CheckResult result = checkOf(plate, image, pose, test::wholeWindow(image.camera));
-  return stability(
-      result.covariance, stabilityCovariance(plate, boundingSphere(plate)), pose.rotation);
+TEST(CheckTest, WhatTheSensorSawThroughCountsInsideOnly) {
+  Step step;
+  EXPECT_EQ(step.check().seen_through, 0.0);
+  // Rims smeared by a pixel or two are no holes.
+  Step smeared;
+  const Image<float> sharp = smeared.image.depth_mm;
+  for (int v = 1; v < 239; ++v) {
+    for (int u = 1; u < 319; ++u) {
+      const float beside = sharp.at(u - 1, v);
+      if (sharp.at(u, v) > 0.0f && beside > sharp.at(u, v)) smeared.image.depth_mm.at(u, v) = beside;
+    }
+  }
+  EXPECT_LT(smeared.check().seen_through, 0.002) << "sensors that smear jumps would lose parts";
+  for (float& depth : step.image.depth_mm) depth = depth > 0.0f && depth < 485.0f ? 495.0f : depth;
+  EXPECT_GT(step.check().seen_through, 0.3) << "half of the part is not there";
 }
 
-TEST(CheckTest, OnlyItsEndsHoldAPlate) {
-  const Mesh plate = test::meshOf({{{-30, -20, 0}, {30, 20, 4}}});
-  DepthImage image{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 540.0f)};
-  test::measure(image, plate, {rotationFromVector({std::numbers::pi, 0.0, 0.0}), {0, 0, 504.0}});
-  EXPECT_GT(stabilityOfPlate(image), 0.2) << "all of its outline is seen to end";
-  const DepthImage floor{image.camera, Image<float>(320, 240, 500.0f)};
-  EXPECT_LT(stabilityOfPlate(floor), 0.05) << "it could lie anywhere on the floor";
+TEST(CheckTest, InnerPixelsAreThoseBesideNoOutline) {
+  const Mesh plate = test::plateMesh(60.0, 40.0);
+  const DepthImage level{test::pinholeCamera(320, 240, 600.0), Image<float>(320, 240, 600.0f)};
+  const CheckResult whole =
+      checkOf(plate, level, {glm::dmat3(1.0), {0.0, 0.0, 600.0}}, test::wholeWindow(level.camera));
+  // 60 x 40 px, their border of one pixel left out.
+  EXPECT_NEAR(whole.inner_px, 58.0 * 38.0, 2.0 * (58.0 + 38.0));
+  const Mesh strip = test::plateMesh(60.0, 2.0);
+  const CheckResult narrow =
+      checkOf(strip, level, {glm::dmat3(1.0), {0.0, 0.0, 600.0}}, test::wholeWindow(level.camera));
+  EXPECT_LT(narrow.inner_px, 62.0) << "what is two pixels wide would be as sure as a face";
 }
 
 TEST(CheckTest, NothingRenderedScoresNothing) {

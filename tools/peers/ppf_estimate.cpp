@@ -84,9 +84,12 @@ std::vector<Candidate> PpfEstimator::estimate(const DepthImage& measured,
     const std::vector<Candidate> own = search(scene, object);
     poses.insert(poses.end(), own.begin(), own.end());
   }
-  Selection selection(depth, database_, noise_mm, options_.min_score);
+  Selection selection(depth, database_, noise_mm);
   selection.add(poses);
-  return selection.choose();
+  std::vector<Candidate> chosen = selection.choose();
+  std::erase_if(chosen,
+                [&](const Candidate& one) { return !(one.confidence >= options_.min_score); });
+  return chosen;
 }
 
 std::vector<Candidate> PpfEstimator::search(const Scene& scene, std::size_t index) {

@@ -26,7 +26,7 @@ void Verdict::judge(Candidate& candidate) const {
   const ReferenceObject& object = objectOf(candidate);
   const CheckOptions options = checkOptionsFor(object, noise_mm_);
   candidate.outside = enclosure_.outsideShare(candidate.object, candidate.pose);
-  setConfidence(candidate, checked(candidate, options, kPixels), object, meanVisibleArea(object));
+  setEvidence(candidate, checked(candidate, options, kPixels), meanVisibleArea(object));
 }
 
 void Verdict::glance(Candidate& candidate) const {

@@ -45,10 +45,9 @@ Json checkJson(const CheckResult& check) {
           {"weak", finite(check.weak, "check.weak")},
           {"outline", finite(check.outline, "check.outline")},
           {"outline_covered", finite(check.outline_covered, "check.outline_covered")},
-          {"flat", finite(check.flat, "check.flat")},
-          {"stability", finite(check.stability, "check.stability")},
-          {"jumps_met", finite(check.jumps_met, "check.jumps_met")},
-          {"jumps_missed", finite(check.jumps_missed, "check.jumps_missed")},
+          {"seen_through", finite(check.seen_through, "check.seen_through")},
+          {"relief", finite(check.relief, "check.relief")},
+          {"inner_px", finite(check.inner_px, "check.inner_px")},
           {"explained_mm2", finite(check.explained_mm2, "check.explained_mm2")},
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
 }
