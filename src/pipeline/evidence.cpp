@@ -10,7 +10,7 @@ namespace {
 
 // Shares below these are not told apart: a pixel here and there.
 constexpr double kLittleThrough = 0.03;
-constexpr double kLittleBuried = 0.05;
+constexpr double kLittleSeen = 0.02;
 constexpr double kLittleVisible = 0.02;
 constexpr double kObservationPx = 9.0;
 constexpr double kDoubt = 4.0;  // observations that may be chance
@@ -40,7 +40,7 @@ EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& con
   const double visible = std::min(area_mm2 / context.mean_visible_mm2, 1.0);
   return {1.0,
           std::log(check.seen_through + kLittleThrough),
-          buriedTerm(check.buried),
+          buriedTerm(check),
           std::min(check.relief, kEnoughRelief),
           std::max(check.relief - kEnoughRelief, 0.0),
           ends,
@@ -48,11 +48,13 @@ EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& con
           context.outside};
 }
 
-double buriedTerm(double share) { return std::log(share + kLittleBuried); }
+double buriedTerm(const CheckResult& check) {
+  return check.buried / (check.explained + check.weak + check.buried + kLittleSeen);
+}
 
 const EvidenceTerms& evidenceWeights() {
   static constexpr EvidenceTerms kWeights{
-      -9.065, -1.959, -0.363, 2.426, 0.545, 2.624, 1.328, -32.608};
+      -6.973, -1.728, -2.840, 2.543, 0.454, 2.255, 1.064, -48.308};
   return kWeights;
 }
 

@@ -17,7 +17,7 @@ namespace rangepose {
 enum class EvidenceTerm : std::size_t {
   kOne,          ///< 1: the odds before anything was seen
   kThrough,     ///< log of the share in front of the data: the sensor saw through the part
-  kBuried,       ///< log of the share just behind nearer data
+  kBuried,       ///< what lies just behind nearer data, as a share of that and of what agrees
   kRelief,       ///< relief up to kEnoughRelief
   kMoreRelief,   ///< relief beyond that
   kEnds,         ///< share of the outline that was seen at which the data ends, too
@@ -42,7 +42,7 @@ const char* nameOf(EvidenceTerm term);
 EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& context);
 
 /// One of the terms, which changes when found parts are known to hide what was buried.
-double buriedTerm(double share);
+double buriedTerm(const CheckResult& check);
 
 /// The fitted weights.
 const EvidenceTerms& evidenceWeights();

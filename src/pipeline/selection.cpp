@@ -123,7 +123,7 @@ void Selection::judgeAmongOthers() {
     const double share = found.coveredShare(entry->pixels, entry->judged.buried, slack_mm);
     if (share > 0.0) {
       entry->candidate.check = withCovered(entry->alone.check, share);
-      setTerm(entry->candidate, EvidenceTerm::kBuried, buriedTerm(entry->candidate.check.buried));
+      setTerm(entry->candidate, EvidenceTerm::kBuried, buriedTerm(entry->candidate.check));
     }
   }
   orderByRank();

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <set>
@@ -40,7 +41,8 @@ TEST_F(EstimateOutputTest, JsonHasAllFields) {
   EXPECT_EQ(answer.at("version"), RP_VERSION);
   EXPECT_EQ(answer.at("image"), (kModels / "demo/depth.png").string());
   EXPECT_TRUE(answer.at("path") == "host" || answer.at("path") == "glsl");
-  EXPECT_GT(answer.at("noise_mm").get<double>(), 0.0);
+  EXPECT_GT(answer.at("sensor").at("noise_mm").get<double>(), 0.0);
+  EXPECT_GE(answer.at("sensor").at("lost").get<double>(), 0.0);
   EXPECT_TRUE(answer.at("warnings").is_array());
   EXPECT_GT(answer.at("times_ms").at("rough search").get<double>(), 0.0);
   expectFiniteNumbers(answer);
@@ -68,6 +70,10 @@ TEST_F(EstimateOutputTest, JsonHasAllFields) {
     EXPECT_NEAR(shares, 1.0, 1e-6);
     EXPECT_GE(pose.at("check").at("outline").get<double>(), 0.0);
     EXPECT_GE(pose.at("check").at("residual_mm").get<double>(), 0.0);
+    double log_odds = 0.0;
+    for (const auto& term : pose.at("evidence")) log_odds += term.get<double>();
+    // Rivals have their share of it, and few pixels bound it.
+    EXPECT_LE(pose.at("score").get<double>(), 1.0 / (1.0 + std::exp(-log_odds)) + 1e-9);
   }
 }
 

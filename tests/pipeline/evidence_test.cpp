@@ -69,7 +69,7 @@ TEST(EvidenceTest, WhatFoundPartsHideDoesNotSpeakAgainstAPose) {
   CheckResult check = sure();
   check.buried = 0.2;
   EvidenceTerms terms = evidenceTerms(check, context());
-  terms[static_cast<std::size_t>(EvidenceTerm::kBuried)] = buriedTerm(0.0);
+  terms[static_cast<std::size_t>(EvidenceTerm::kBuried)] = buriedTerm(sure());
   EXPECT_NEAR(logOddsOf(terms, check.inner_px), oddsOf(sure()), 1e-12);
 }
 

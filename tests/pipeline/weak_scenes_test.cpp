@@ -195,6 +195,52 @@ TEST(PartNotThereTest, NothingIsFoundOnWallsAlone) {
   }
 }
 
+TEST(PartNotThereTest, NoPinIsSureOnPlainRods) {
+  const Estimate estimate = test::estimateAll(binOf("fitting/rod").scan.image,
+                                              databaseOf("fitting/pin"),
+                                              binOf("fitting/rod").box);
+  for (const PoseEstimate& pose : estimate.poses) {
+    EXPECT_LT(pose.confidence, test::kSure)
+        << "its head, which tells it from a rod, is not in the data: relief " << pose.check.relief
+        << ", seen through " << pose.check.seen_through;
+  }
+}
+
+TEST(PartNotThereTest, NothingIsFoundInAThousandRandomPoints) {
+  DepthImage image{scannerCamera({}), {}};
+  image.depth_mm = Image<float>(image.camera.width, image.camera.height, 0.0f);
+  Random random(4);
+  for (int i = 0; i < 1000; ++i) {
+    const int u = static_cast<int>(random.uniform() * image.camera.width);
+    const int v = static_cast<int>(random.uniform() * image.camera.height);
+    image.depth_mm.at(u, v) = static_cast<float>(600.0 + 200.0 * random.uniform());
+  }
+  EXPECT_TRUE(test::estimateAll(image, databaseOf("elbow")).poses.empty())
+      << "a pixel is no evidence";
+}
+
+TEST(ScoreLimitTest, OnlyFilters) {
+  const std::unique_ptr<StageSet> stages = makeHostStages();
+  const Bin& bin = binOf("bracket");
+  std::vector<std::vector<double>> scores;
+  for (const double limit : {0.02, 0.5, 0.9}) {
+    EstimateOptions options;
+    options.max_poses = 100;
+    options.min_score = limit;
+    std::vector<double>& own = scores.emplace_back();
+    for (const PoseEstimate& pose :
+         estimatePoses(bin.scan.image, bin.box, databaseOf("bracket"), options, *stages).poses)
+      own.push_back(pose.confidence);
+  }
+  ASSERT_GT(scores[2].size(), 2u);
+  for (std::size_t i : {1u, 2u}) {
+    const double limit = i == 1 ? 0.5 : 0.9;
+    std::vector<double> above = scores[0];
+    std::erase_if(above, [&](double score) { return score < limit; });
+    EXPECT_EQ(scores[i], above) << "what is found above a limit must not depend on it";
+  }
+}
+
 /// The same scene as somebody sees it who took the unit of the model, or the depth, for another.
 TEST(UnitMistakeTest, IsWarnedOf) {
   PlacedPart bracket;

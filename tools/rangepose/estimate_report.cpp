@@ -52,6 +52,35 @@ Json checkJson(const CheckResult& check) {
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
 }
 
+/// What each term adds to the log odds that the pose is right.
+Json evidenceJson(const EvidenceTerms& terms) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < kEvidenceTerms; ++i) {
+    const char* name = nameOf(static_cast<EvidenceTerm>(i));
+    json[name] = finite(terms[i] * evidenceWeights()[i], name);
+  }
+  return json;
+}
+
+Json sensorJson(const SensorFacts& sensor) {
+  return {{"noise_mm", finite(sensor.noise_mm, "noise_mm")},
+          {"step_mm", finite(sensor.step_mm, "step_mm")},
+          {"jump_px", finite(sensor.jump_px, "jump_px")},
+          {"hole_px", finite(sensor.hole_px, "hole_px")},
+          {"lost", finite(sensor.lost, "lost")}};
+}
+
+std::string sensorLine(const SensorFacts& sensor) {
+  return fmt::format(
+      "sensor: noise {:.3f} mm, steps of {:.3g} mm, jumps smeared over {:.1f} px, {:.1f} px lost at "
+      "a jump, {:.1f} % lost in all\n",
+      sensor.noise_mm,
+      sensor.step_mm,
+      sensor.jump_px,
+      sensor.hole_px,
+      100.0 * sensor.lost);
+}
+
 const ReferenceObject& objectOf(const PoseEstimate& pose, const ReferenceDatabase& database) {
   return database.objects.at(static_cast<std::size_t>(pose.object));
 }
@@ -73,7 +102,8 @@ Json poseJson(std::size_t index, const PoseEstimate& pose, const ReportContext& 
             {"t", vectorJson(pose.rough.translation_mm, "rough.t")},
             {"error", finite(static_cast<double>(pose.rough_error), "rough.error")},
             {"view", pose.view}}},
-          {"check", checkJson(pose.check)}};
+          {"check", checkJson(pose.check)},
+          {"evidence", evidenceJson(pose.evidence)}};
 }
 
 std::string poseLine(std::size_t index, const PoseEstimate& pose, const ReportContext& context) {
@@ -124,6 +154,7 @@ std::string textReport(const Estimate& estimate, const ReportContext& context) {
   for (std::size_t i = 0; i < estimate.poses.size(); ++i) {
     text += poseLine(i, estimate.poses[i], context);
   }
+  text += sensorLine(estimate.sensor);
   double total = 0.0;
   text += "path " + context.path + ", times [ms]:";
   for (const StageTime& time : estimate.times) {
@@ -150,7 +181,7 @@ Json jsonReport(const Estimate& estimate, const ReportContext& context) {
           {"poses", poses},
           {"out_of_reach", context.found - estimate.poses.size()},
           {"times_ms", timesJson(estimate.times)},
-          {"noise_mm", finite(estimate.noise_mm, "noise_mm")},
+          {"sensor", sensorJson(estimate.sensor)},
           {"warnings", estimate.warnings}};
 }
 
