@@ -20,8 +20,6 @@ constexpr int kMaxScenePx = 1024;
 /// A start this near to an earlier one would find what that found [share of the diameter].
 constexpr double kTriedApart = 0.1;
 constexpr int kFruitlessPasses = 2;
-/// Confidence from which on a part counts as found.
-constexpr double kFound = 0.5;
 
 PoseEstimate estimateOf(const Candidate& candidate) {
   return {candidate.object,
@@ -78,7 +76,7 @@ class Estimator {
     const std::unique_ptr<ResidentDepth> left =
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : whole_;
-    const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_};
+    const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_, options_.align};
     const LateralExtent extent = extentOf(resident);
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;
@@ -150,7 +148,7 @@ class Estimator {
 
  private:
   RefineScene wholeScene() const {
-    return {depth_, whole_, result_.noise_mm, enclosure_, stages_};
+    return {depth_, whole_, result_.noise_mm, enclosure_, stages_, options_.align};
   }
 
   LateralExtent extentOf(const ResidentDepth& resident) {
@@ -294,6 +292,8 @@ void EstimateOptions::check() const {
   RP_CHECK(verified >= 0, "verified must be at least 1, or 0 for the default");
   RP_CHECK(max_poses >= 1, "max_poses must be at least 1");
   RP_CHECK(min_score >= 0.0 && min_score <= 1.0, "min_score must lie in 0..1");
+  align.check();
+  choice.check();
   search.simplex.check();
   search.error.check();
 }
@@ -340,7 +340,7 @@ Estimate estimatePoses(const DepthImage& measured,
   result.background = on_host.background;
   if (trace != nullptr) trace->foreground = on_host.mask;
   Estimator estimator(*scene, bin, database, options, stages, result);
-  Selection selection(on_host.depth, database, result.noise_mm);
+  Selection selection(on_host.depth, database, result.noise_mm, options.choice);
   Image<std::uint8_t> rest = on_host.mask;
   int found = 0;
   // Passes on what is left, until all its starts were tried before, or two found nothing.
@@ -358,8 +358,8 @@ Estimate estimatePoses(const DepthImage& measured,
     selection.add(copies);
     const int before = found;
     const std::vector<Candidate> chosen = selection.choose();
-    found = static_cast<int>(std::count_if(chosen.begin(), chosen.end(), [](const Candidate& one) {
-      return one.confidence >= kFound;
+    found = static_cast<int>(std::count_if(chosen.begin(), chosen.end(), [&](const Candidate& one) {
+      return one.confidence >= options.choice.found;
     }));
     const bool enough = found >= options.max_poses;
     if (pass.starts == 0 || enough || options.max_poses == 1) break;

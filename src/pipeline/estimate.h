@@ -8,6 +8,7 @@
 #include "core/camera.h"
 #include "core/timings.h"
 #include "database/reference_database.h"
+#include "pipeline/choice_options.h"
 #include "pipeline/refine.h"
 #include "pipeline/seeds.h"
 #include "stages/check_host.h"
@@ -36,6 +37,8 @@ struct EstimateOptions {
   double min_score = 0.5;  ///< poses below are not reported
   int max_poses = 1;  ///< poses wanted; more than one: what is explained is taken out, then again
   SearchOptions search;
+  AlignOptions align;
+  ChoiceOptions choice;
   /// Of the passes 0, 1, ...
   PassEffort effort(int pass = 0) const;
   void check() const;  ///< throws Error naming the bad field

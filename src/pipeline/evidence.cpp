@@ -54,7 +54,7 @@ double buriedTerm(const CheckResult& check) {
 
 const EvidenceTerms& evidenceWeights() {
   static constexpr EvidenceTerms kWeights{
-      -6.973, -1.728, -2.840, 2.543, 0.454, 2.255, 1.064, -48.308};
+      -8.270, -2.098, -2.490, 2.390, 0.493, 2.425, 1.230, -73.878};
   return kWeights;
 }
 

@@ -43,17 +43,6 @@ void setVerdicts(std::vector<Candidate>& candidates,
   }
 }
 
-/// One round of alignment with points of the candidates' own views.
-struct CoarseRound {
-  int iterations;
-  int search_steps;
-  double first_reach;      ///< share of the diameter
-  double last_tolerances;  ///< reach of the last iteration, in tolerances
-  double rim_reach;        ///< share of the diameter
-  int rim_steps;
-  double judged;  ///< what is explained is judged with that share of the tolerance
-};
-
 /// Of the candidates' own views.
 Points pointsOfViews(const std::vector<Candidate>& candidates,
                      const ReferenceDatabase& database,
@@ -95,9 +84,6 @@ void alignWithViews(std::vector<Candidate>& candidates,
                     const RefineScene& scene,
                     const Points& points,
                     const CoarseRound& round) {
-  // More than that of rendered surfaces: where a pose is far off, an end of the data is a surer
-  // guide than what happens to lie near its faces.
-  constexpr double kRimWeight = 0.2;
   std::vector<AlignTask> alignments;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
@@ -106,7 +92,7 @@ void alignWithViews(std::vector<Candidate>& candidates,
                                     round.iterations);
     options.search_steps = round.search_steps;
     options.rim_reach_mm = round.rim_reach * object.diameter_mm;
-    options.rim_weight = kRimWeight;
+    options.rim_weight = scene.align.coarse_rims;
     options.rim_steps = round.rim_steps;
     alignments.push_back(
         {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options, true});
@@ -116,12 +102,6 @@ void alignWithViews(std::vector<Candidate>& candidates,
     candidates[i].pose = aligned[i].camera_from_object;
   judgeWithViews(candidates, database, scene, points, round.judged);
 }
-
-// A few steps with few points tell which of many hypotheses are worth more.
-constexpr CoarseRound kAll{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
-constexpr CoarseRound kMany{8, 1, 0.11, 2.0, 0.12, 6, 0.7};
-constexpr CoarseRound kFew{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
-constexpr int kPoints = 220;  // of a view, in the last of them
 
 int mostOfAStart(const std::vector<Candidate>& candidates) {
   std::map<std::pair<int, int>, int> counts;
@@ -141,15 +121,15 @@ std::vector<Candidate> refineCoarsely(std::vector<Candidate> candidates,
   const auto pointsOf = [&](int max_points) {
     return pointsOfViews(candidates, database, scene.stages, max_points);
   };
-  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), kAll);
+  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), scene.align.all);
   const int many = std::max(mostOfAStart(candidates) / kPerMany, kFewPerKept * count);
   candidates = bestDistinct(std::move(candidates), database, many);
-  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), kMany);
+  alignWithViews(candidates, database, scene, pointsOf(kFewPoints), scene.align.many);
   std::erase_if(candidates, [&](const Candidate& one) {
     return !scene.enclosure.holds(one.object, one.pose, 0.0);
   });
   candidates = bestDistinct(std::move(candidates), database, kFewPerKept * count);
-  alignWithViews(candidates, database, scene, pointsOf(kPoints), kFew);
+  alignWithViews(candidates, database, scene, pointsOf(scene.align.view_points), scene.align.few);
   return bestDistinct(std::move(candidates), database, count);
 }
 
@@ -161,8 +141,8 @@ std::vector<Candidate> refineTurned(const std::vector<Candidate>& copies,
   judgeWithViews(candidates,
                  database,
                  scene,
-                 pointsOfViews(candidates, database, scene.stages, kPoints),
-                 kFew.judged);
+                 pointsOfViews(candidates, database, scene.stages, scene.align.view_points),
+                 scene.align.few.judged);
   const std::vector<Candidate> aligned = refineCoarsely(copies, database, scene, count);
   candidates.insert(candidates.end(), aligned.begin(), aligned.end());
   std::erase_if(candidates, [&](const Candidate& one) {
@@ -189,9 +169,6 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const RefineScene& scene,
                                        const FineRounds& fine,
                                        double reach_tolerances) {
-  constexpr int kFineIterations = 12;
-  // Poses that are nearly right find their partners next to where they look.
-  constexpr double kNearlyRight = 4.0;  // tolerances
   // Faces alone leave a plate free to slide in its plane; where rims hold it, a pull towards the
   // nearest points would only slow it down.
   std::vector<RenderTask> tasks;
@@ -202,8 +179,8 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
         surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
     task.max_points = fine.points;
     task.alignment =
-        icpOptions(reach_tolerances * tolerance, fine.last_reach * tolerance, kFineIterations);
-    task.alignment.search_steps = reach_tolerances > kNearlyRight ? 2 : 1;
+        icpOptions(reach_tolerances * tolerance, fine.last_reach * tolerance, scene.align.fine_iterations);
+    task.alignment.search_steps = reach_tolerances > scene.align.nearly_right ? 2 : 1;
     task.alignment.slide = 0.0;
     task.alignment.rim_reach_mm = fine.rim_reach * object.diameter_mm;
   }
@@ -240,11 +217,10 @@ void refineAll(std::vector<Candidate>& candidates,
                const ReferenceDatabase& database,
                const RefineScene& scene,
                const FineRounds& fine) {
-  constexpr double kLaterReach = 1.5;  // tolerances
   std::vector<std::size_t> moving(candidates.size());
   std::iota(moving.begin(), moving.end(), std::size_t{0});
   for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
-    const double reach = round == 0 ? fine.first_reach : kLaterReach;
+    const double reach = round == 0 ? fine.first_reach : scene.align.later_reach;
     moving = alignSurfaces(candidates, moving, database, scene, fine, reach);
   }
   checkAll(candidates, database, scene);
@@ -252,18 +228,13 @@ void refineAll(std::vector<Candidate>& candidates,
 
 /// Where little holds a pose, it may drift off: then it stays.
 template <typename Refine>
-void unlessWorse(std::vector<Candidate>& candidates, const Refine& refine) {
-  constexpr double kWorse = 3.0;  // log odds
+void unlessWorse(std::vector<Candidate>& candidates, double worse, const Refine& refine) {
   const std::vector<Candidate> before = candidates;
   refine();
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (candidates[i].rank < before[i].rank - kWorse) candidates[i] = before[i];
+    if (candidates[i].rank < before[i].rank - worse) candidates[i] = before[i];
   }
 }
-
-/// Odds of e^-4: no long alignment makes such a pose right.
-constexpr double kHopeless = -4.0;
-constexpr int kFinePoints = 900;  // of a surface, for a pose that is to rest
 
 }  // namespace
 
@@ -271,27 +242,24 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const ReferenceDatabase& database,
                   const RefineScene& scene,
                   const FineEffort& effort) {
-  // What its view's points explain of a mean visible area. Of 2,365 parts in tuning bins this loses
-  // one, and it spares half of the rendering; the best is rendered in any case.
-  constexpr double kFaint = 0.15;
   if (candidates.empty()) return;
   candidates.erase(std::remove_if(candidates.begin() + 1,
                                   candidates.end(),
-                                  [](const Candidate& one) { return one.rank < kFaint; }),
+                                  [&](const Candidate& one) { return one.rank < scene.align.glanced; }),
                    candidates.end());
-  refineAll(candidates, database, scene, {effort.rounds, effort.points, 6.0, effort.still});
-  std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
+  refineAll(candidates, database, scene, {effort.rounds, effort.points, scene.align.first_reach, effort.still});
+  std::erase_if(candidates, [&](const Candidate& one) { return one.rank < scene.align.hopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
-  unlessWorse(candidates, [&] {
-    refineAll(candidates, database, scene, {8, kFinePoints, 3.0, effort.still});
+  unlessWorse(candidates, scene.align.worse, [&] {
+    refineAll(candidates, database, scene, {scene.align.rest_rounds, scene.align.rest_points, 3.0, effort.still});
   });
 }
 
 void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
-  unlessWorse(candidates, [&] {
-    refineAll(candidates, database, scene, {16, kFinePoints, 1.5, 1e-5, 0.5, 0.08});
+  unlessWorse(candidates, scene.align.worse, [&] {
+    refineAll(candidates, database, scene, {scene.align.tie_rounds, scene.align.rest_points, 1.5, 1e-5, 0.5, 0.08});
   });
 }
 
@@ -301,16 +269,14 @@ namespace {
 void alignPixels(std::vector<Candidate>& candidates,
                  const ReferenceDatabase& database,
                  const RefineScene& scene) {
-  constexpr int kIterations = 4;
-  constexpr int kMostPx = 400;  // a side: of more, every second is enough
   std::vector<RenderTask> tasks;
   for (const Candidate& candidate : candidates) {
     const ReferenceObject& object = objectOf(candidate, database);
     const double tolerance_mm = toleranceFor(object, scene.noise_mm);
     RenderTask& task = tasks.emplace_back(
-        surfaceTask(object, candidate.pose, scene.depth.camera, scene.noise_mm, kMostPx));
-    task.max_points = kMostPx * kMostPx;
-    task.alignment = icpOptions(tolerance_mm, tolerance_mm, kIterations);
+        surfaceTask(object, candidate.pose, scene.depth.camera, scene.noise_mm, scene.align.settle_px));
+    task.max_points = scene.align.settle_px * scene.align.settle_px;
+    task.alignment = icpOptions(tolerance_mm, tolerance_mm, scene.align.settle_iterations);
     task.alignment.search_steps = 0;
     task.alignment.slide = 0.0;
   }
@@ -324,9 +290,8 @@ void alignPixels(std::vector<Candidate>& candidates,
 void settle(std::vector<Candidate>& candidates,
             const ReferenceDatabase& database,
             const RefineScene& scene) {
-  constexpr int kRounds = 2;
-  unlessWorse(candidates, [&] {
-    for (int round = 0; round < kRounds; ++round) alignPixels(candidates, database, scene);
+  unlessWorse(candidates, scene.align.worse, [&] {
+    for (int round = 0; round < scene.align.settle_rounds; ++round) alignPixels(candidates, database, scene);
     checkAll(candidates, database, scene);
   });
 }
@@ -334,14 +299,13 @@ void settle(std::vector<Candidate>& candidates,
 void checkTwins(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
-  constexpr double kHeld = 1e-3;  // of the diameter: what moves by more is free to move
   checkAll(candidates, database, scene);
-  std::erase_if(candidates, [](const Candidate& one) { return one.rank < kHopeless; });
+  std::erase_if(candidates, [&](const Candidate& one) { return one.rank < scene.align.hopeless; });
   const std::vector<Candidate> before = candidates;
   settle(candidates, database, scene);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const PoseDistance distance(objectOf(candidates[i], database));
-    if (!distance.below(kHeld, before[i].pose, candidates[i].pose)) candidates[i] = before[i];
+    if (!distance.below(scene.align.held, before[i].pose, candidates[i].pose)) candidates[i] = before[i];
   }
 }
 

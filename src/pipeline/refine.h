@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "database/reference_database.h"
+#include "pipeline/align_options.h"
 #include "pipeline/enclosure.h"
 #include "pipeline/evidence.h"
 #include "stages/check_host.h"
@@ -18,6 +19,7 @@ struct RefineScene {
   double noise_mm;                ///< of the depth [mm]
   const Enclosure& enclosure;     ///< of the same image and database
   StageSet& stages;               ///< of the path that `resident` is from
+  AlignOptions align{};
 };
 
 /// A rough pose and what became of it.

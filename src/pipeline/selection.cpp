@@ -12,15 +12,6 @@
 namespace rangepose {
 namespace {
 
-constexpr double kSame = 0.05;          // of the diameter
-constexpr double kMostShared = 0.25;    // of the pixels that a pose explains
-constexpr double kFaint = 0.005;        // confidence below which a pose is nobody's rival
-constexpr double kListed = 0.02;        // confidence from which on a pose can be chosen
-constexpr double kWorthTurning = 0.03;  // confidence
-constexpr double kRival = 0.5;          // of the pixels of the larger of two poses
-constexpr double kFound = 0.5;          // confidence from which on a part hides others
-constexpr double kSure = 0.8;           // confidence from which on nobody looks there again
-
 PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
   if (pixels.empty()) return {};
   PixelBox box{width, pixels.front() / width, 0, pixels.back() / width + 1};
@@ -35,10 +26,12 @@ PixelBox boxAround(const std::vector<std::int32_t>& pixels, int width) {
 
 Selection::Selection(const DepthImage& depth,
                      const ReferenceDatabase& database,
-                     double noise_mm)
+                     double noise_mm,
+                     const ChoiceOptions& options)
     : depth_(depth),
       database_(database),
       noise_mm_(noise_mm),
+      options_(options),
       distances_(database.objects.begin(), database.objects.end()),
       owners_(depth.depth_mm.width(), depth.depth_mm.height(), kNobody) {
   for (const ReferenceObject& object : database.objects) {
@@ -51,7 +44,7 @@ const Selection::Entry* Selection::find(const Candidate& candidate) const {
   const PoseDistance& distance = distances_[static_cast<std::size_t>(candidate.object)];
   const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
     return entry->candidate.object == candidate.object &&
-           distance.below(kSame, entry->candidate.pose, candidate.pose);
+           distance.below(options_.same, entry->candidate.pose, candidate.pose);
   });
   return found == entries_.end() ? nullptr : found->get();
 }
@@ -61,7 +54,7 @@ bool Selection::knows(const Candidate& candidate) const { return find(candidate)
 void Selection::add(const std::vector<Candidate>& candidates) {
   std::vector<Entry*> added;
   for (const Candidate& candidate : candidates) {
-    if (!(candidate.confidence >= kFaint)) continue;
+    if (!(candidate.confidence >= options_.faint)) continue;
     if (const Entry* known = find(candidate)) {
       if (known->alone.rank >= candidate.rank) continue;
       std::erase(added, known);
@@ -100,15 +93,12 @@ void Selection::orderByRank() {
 }
 
 void Selection::judgeAmongOthers() {
-  constexpr double kSlack = 0.5;  // tolerances
-  // Of a pose under others that explains little, the rest fits anything.
-  constexpr double kEnough = 0.5;  // of a mean visible area
   for (const auto& entry : entries_) entry->candidate = entry->alone;
   orderByRank();
   FoundParts found(depth_.depth_mm.size());
   std::fill(owners_.begin(), owners_.end(), kNobody);
   std::vector<Entry*> hiding = chosen();
-  std::erase_if(hiding, [](const Entry* one) { return one->candidate.confidence < kFound; });
+  std::erase_if(hiding, [&](const Entry* one) { return one->candidate.confidence < options_.found; });
   parallelForEach(hiding.size(), 1, [&](std::size_t i) { findExits(*hiding[i]); });
   for (const Entry* entry : hiding) {
     found.add(entry->pixels, entry->exit_mm);
@@ -118,8 +108,8 @@ void Selection::judgeAmongOthers() {
     const ReferenceObject& object = objectOf(*entry);
     const double mean_mm2 =
         mean_visible_mm2_[static_cast<std::size_t>(entry->alone.object)];
-    if (entry->alone.check.explained_mm2 < kEnough * mean_mm2) continue;
-    const double slack_mm = kSlack * toleranceFor(object, noise_mm_);
+    if (entry->alone.check.explained_mm2 < options_.hidden_from * mean_mm2) continue;
+    const double slack_mm = options_.slack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry->pixels, entry->judged.buried, slack_mm);
     if (share > 0.0) {
       entry->candidate.check = withCovered(entry->alone.check, share);
@@ -153,8 +143,8 @@ void Selection::findExits(Entry& entry) const {
       objectOf(entry).mesh, entry.candidate.pose, depth_.camera, windowOf(entry), entry.pixels);
 }
 
-bool Selection::shareMost(const Entry& a, const Entry& b) {
-  const double wanted = kRival * static_cast<double>(std::max(a.pixels.size(), b.pixels.size()));
+bool Selection::shareMost(const Entry& a, const Entry& b) const {
+  const double wanted = options_.rival * static_cast<double>(std::max(a.pixels.size(), b.pixels.size()));
   const int width = std::min(a.box.x1, b.box.x1) - std::max(a.box.x0, b.box.x0);
   const int height = std::min(a.box.y1, b.box.y1) - std::max(a.box.y0, b.box.y0);
   const double most = static_cast<double>(std::min(a.pixels.size(), b.pixels.size()));
@@ -183,15 +173,13 @@ double Selection::preference(const Entry& rival, const Entry& entry, double clos
 }
 
 double Selection::closeMm(const Entry& entry) const {
-  constexpr double kSigmas = 2.0;
-  constexpr double kAtRest = 0.005;  // of the diameter: what aligned poses are off, and more
   double residual_mm = entry.candidate.check.residual_mm;
   for (const Entry* rival : entry.rivals)
     residual_mm = std::min(residual_mm, rival->candidate.check.residual_mm);
   // The mean of the absolute value of x from N(0, s^2) is 0.8 s.
   const double sigma_mm = std::max(residual_mm / 0.8, noise_mm_);
   const ReferenceObject& object = objectOf(entry);
-  return std::min(std::max(kSigmas * sigma_mm, kAtRest * object.diameter_mm),
+  return std::min(std::max(options_.close * sigma_mm, options_.at_rest * object.diameter_mm),
                   toleranceFor(object, noise_mm_));
 }
 
@@ -202,10 +190,10 @@ std::vector<Selection::Entry*> Selection::chosen() const {
     const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
       return taken[static_cast<std::size_t>(at)] != 0;
     });
-    return static_cast<double>(shared) <= kMostShared * static_cast<double>(entry.pixels.size());
+    return static_cast<double>(shared) <= options_.shared * static_cast<double>(entry.pixels.size());
   };
   for (const auto& entry : entries_) {
-    if (!(entry->candidate.confidence >= kListed) || !isFree(*entry)) continue;
+    if (!(entry->candidate.confidence >= options_.listed) || !isFree(*entry)) continue;
     const double close_mm = closeMm(*entry);
     Entry* best = entry.get();
     double most = 0.0;
@@ -230,7 +218,7 @@ std::vector<Candidate> Selection::choose() const {
     for (const Entry* rival : entry->rivals)
       all += odds * std::exp(preference(*rival, *entry, close_mm));
     const double confidence = odds / all;
-    if (!(confidence >= kListed)) continue;
+    if (!(confidence >= options_.listed)) continue;
     candidates.push_back(entry->candidate);
     candidates.back().confidence = confidence;
   }
@@ -249,14 +237,19 @@ std::vector<Candidate> Selection::known() const {
 
 std::vector<Candidate> Selection::turnedCopies() {
   std::vector<Entry*> turned;
+  // Copies of the surest pose for a surface are there for its rivals as well.
   for (const auto& entry : entries_) {
-    if (!entry->turned && !(entry->candidate.confidence < kWorthTurning))
-      turned.push_back(entry.get());
+    if (entry->turned || entry->candidate.confidence < options_.turned) continue;
+    const auto isSurer = [&](const Entry* rival) {
+      return rival->turned && rival->candidate.rank >= entry->candidate.rank;
+    };
+    if (std::any_of(entry->rivals.begin(), entry->rivals.end(), isSurer)) continue;
+    entry->turned = true;
+    turned.push_back(entry.get());
   }
   std::vector<std::vector<Candidate>> copies_of(turned.size());
   parallelForEach(turned.size(), 1, [&](std::size_t i) {
-    Entry& entry = *turned[i];
-    entry.turned = true;
+    const Entry& entry = *turned[i];
     copies_of[i] =
         rangepose::turnedCopies(entry.candidate,
                                 entry.pixels,
@@ -272,15 +265,15 @@ std::vector<Candidate> Selection::turnedCopies() {
 }
 
 std::vector<Candidate> Selection::takeTies() {
-  constexpr double kNearly = 3.0;  // log odds
   std::vector<Entry*> ties;
   const auto tie = [&](Entry* entry) {
     if (std::find(ties.begin(), ties.end(), entry) == ties.end()) ties.push_back(entry);
   };
   for (Entry* entry : chosen_) {
+    if (!(entry->candidate.confidence >= options_.settled)) continue;
     const double close_mm = closeMm(*entry);
     for (Entry* rival : entry->rivals) {
-      if (std::abs(preference(*rival, *entry, close_mm)) > kNearly) continue;
+      if (std::abs(preference(*rival, *entry, close_mm)) > options_.tie) continue;
       tie(entry);
       tie(rival);
     }
@@ -288,7 +281,13 @@ std::vector<Candidate> Selection::takeTies() {
   return take(ties);
 }
 
-std::vector<Candidate> Selection::takeChosen() { return take(std::vector(chosen_)); }
+std::vector<Candidate> Selection::takeChosen() {
+  std::vector<Entry*> entries = chosen_;
+  std::erase_if(entries, [&](const Entry* one) {
+    return !(one->candidate.confidence >= options_.settled);
+  });
+  return take(entries);
+}
 
 std::vector<Candidate> Selection::take(const std::vector<Entry*>& entries) {
   std::vector<Candidate> candidates;
@@ -302,6 +301,7 @@ std::vector<Candidate> Selection::take(const std::vector<Entry*>& entries) {
 std::vector<Candidate> Selection::twinsOfChosen() const {
   std::vector<Candidate> twins;
   for (const Entry* entry : chosen_) {
+    if (!(entry->candidate.confidence >= options_.settled)) continue;
     for (const Pose& twin : objectOf(*entry).twins) {
       twins.push_back(entry->alone);
       twins.back().pose = entry->alone.pose * twin;
@@ -330,7 +330,7 @@ void Selection::addTwins(const std::vector<Candidate>& twins) {
 
 void Selection::takeOut(Image<std::uint8_t>& mask) const {
   for (const Entry* entry : chosen_) {
-    if (entry->candidate.confidence < kSure) continue;
+    if (entry->candidate.confidence < options_.sure) continue;
     for (const std::int32_t at : entry->pixels) mask.data()[at] = 0;
   }
 }

@@ -8,6 +8,7 @@
 #include "core/camera.h"
 #include "core/image.h"
 #include "geometry/surface_sample.h"
+#include "pipeline/choice_options.h"
 #include "pipeline/explained_pixels.h"
 #include "pipeline/occlusion.h"
 #include "pipeline/pose_distance.h"
@@ -20,7 +21,10 @@ namespace rangepose {
 /// found later.
 class Selection {
  public:
-  Selection(const DepthImage& depth, const ReferenceDatabase& database, double noise_mm);
+  Selection(const DepthImage& depth,
+            const ReferenceDatabase& database,
+            double noise_mm,
+            const ChoiceOptions& options = {});
 
   /// Whether a pose like this one, symmetric copies included, is there already.
   bool knows(const Candidate& candidate) const;
@@ -83,7 +87,7 @@ class Selection {
   void judgeAmongOthers();
   void orderByRank();
   /// Whether they are for the same surface, by the pixels that both explain.
-  static bool shareMost(const Entry& a, const Entry& b);
+  bool shareMost(const Entry& a, const Entry& b) const;
   /// Log odds of a rival against the entry, see closeMm().
   double preference(const Entry& rival, const Entry& entry, double close_mm) const;
   /// Model and data that close are as near as the entry or any of its rivals comes [mm]. What tells
@@ -95,6 +99,7 @@ class Selection {
   const DepthImage& depth_;
   const ReferenceDatabase& database_;
   double noise_mm_;
+  ChoiceOptions options_;
   std::vector<double> mean_visible_mm2_;         ///< by object
   std::vector<PoseDistance> distances_;          ///< by object
   std::vector<AreaMoments> moments_;             ///< by object

@@ -19,6 +19,7 @@ namespace {
 
 constexpr const char* kExamples = R"(Run in the folder of the sources. Examples:
   rangepose_fit table --out build/evidence.csv             all poses known in the fitting bins
+  rangepose_fit table --out tests/fit/evidence.csv --examples   what the weights were fitted to
   rangepose_fit table --out choose.csv --set choose        of other bins, to look at
   rangepose_fit weights build/evidence.csv                 the weights, as in src/pipeline/evidence.cpp
   rangepose_fit weights build/evidence.csv --check choose.csv   and how well they do elsewhere
@@ -34,6 +35,7 @@ struct Arguments {
   std::string models = "models";
   std::string cache = "build/gate";
   std::string out;
+  bool examples = false;
   std::string table;
   std::string check;
 };
@@ -54,7 +56,8 @@ void runTable(const Arguments& arguments) {
   plan.models = arguments.models;
   plan.program = arguments.binary;
   gate::Cache cache(arguments.cache, 0);
-  writeFileAtomically(arguments.out, tableText(evidenceTable(plan, cache)));
+  const std::vector<EvidenceRow> rows = evidenceTable(plan, cache);
+  writeFileAtomically(arguments.out, tableText(arguments.examples ? examplesOf(rows) : rows));
 }
 
 /// How the scores of the chosen poses fit, sensor by sensor.
@@ -113,6 +116,7 @@ int run(int argc, char** argv) {
   app.footer(kExamples);
   CLI::App* table = app.add_subcommand("table", "Writes a table of known poses and their evidence");
   table->add_option("--out", arguments.out, "The table")->required();
+  table->add_flag("--examples", arguments.examples, "Only poses that weights are fitted to");
   table->add_option("--set", arguments.set, "Of bins: fit, choose or report")->capture_default_str();
   table->add_option("--sensor", arguments.sensors, "Only these [all of the recipes]");
   table->add_option("--kind", arguments.kinds, "Only these kinds of bins [all of the set]");
