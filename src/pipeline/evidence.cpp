@@ -23,6 +23,7 @@ const char* nameOf(EvidenceTerm term) {
                                                            "buried",
                                                            "relief",
                                                            "more_relief",
+                                                           "unseen_relief",
                                                            "ends",
                                                            "visible",
                                                            "outside"};
@@ -43,6 +44,7 @@ EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& con
           buriedTerm(check),
           std::min(check.relief, kEnoughRelief),
           std::max(check.relief - kEnoughRelief, 0.0),
+          std::max(std::min(check.whole_relief, kEnoughRelief) - std::max(check.relief, 0.0), 0.0),
           ends,
           std::log(visible + kLittleVisible),
           context.outside};
@@ -54,7 +56,7 @@ double buriedTerm(const CheckResult& check) {
 
 const EvidenceTerms& evidenceWeights() {
   static constexpr EvidenceTerms kWeights{
-      -8.270, -2.098, -2.490, 2.390, 0.493, 2.425, 1.230, -73.878};
+      -8.658, -2.278, -3.933, 1.734, 0.310, -2.683, 2.862, 0.946, -81.529};
   return kWeights;
 }
 

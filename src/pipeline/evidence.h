@@ -20,11 +20,12 @@ enum class EvidenceTerm : std::size_t {
   kBuried,       ///< what lies just behind nearer data, as a share of that and of what agrees
   kRelief,       ///< relief up to kEnoughRelief
   kMoreRelief,   ///< relief beyond that
+  kUnseenRelief,  ///< relief up to kEnoughRelief that is not seen
   kEnds,         ///< share of the outline that was seen at which the data ends, too
   kVisible,      ///< log of the surface that agrees, as a share of what the object shows on average
   kOutside,      ///< share of the surface that lies where no part can be (enclosure.h)
 };
-inline constexpr std::size_t kEvidenceTerms = 8;
+inline constexpr std::size_t kEvidenceTerms = 9;
 using EvidenceTerms = std::array<double, kEvidenceTerms>;
 
 /// Relief from which on a part and a smooth surface are hardly confused: half of what errors leave.

@@ -22,6 +22,7 @@ struct SurfaceTally {
   double seen_through = 0.0;
   double inner = 0.0;
   ReliefSums relief;
+  ReliefSums whole;  ///< of the surface itself, as if all of it were seen
 };
 
 /// Reads the measured surface at camera pixels, see posed_points_core.h.
@@ -89,23 +90,24 @@ struct RenderedSurface {
   RP_HD void judgeRelief(
       const SurfaceTexel& texel, int x, int y, bool agrees, SurfaceTally& tally) const {
     constexpr double kWide = 2.0;  // tolerances
-    const double seen = measured.at(u(x), v(y));
-    if (seen == 0.0) return;
+    if (isRim(texel, x, y)) return;
     const double slope = static_cast<double>(std::abs(texel.z));
     const double slant = slope > kLeastSlant ? slope : kLeastSlant;
-    const double off_mm = (seen - static_cast<double>(texel.w)) * slant;
+    const double across = 2.0 * x / window.width - 1.0;
+    const double down = 2.0 * y / window.height - 1.0;
+    const double own = static_cast<double>(texel.w);
+    tally.whole.add(across, down, own - sphere.center_mm.z, 0.0, slant);
+    const double seen = measured.at(u(x), v(y));
+    if (seen == 0.0) return;
+    const double off_mm = (seen - own) * slant;
     const double limit_mm = kWide * rules.options.tolerance_mm;
-    if (off_mm < -limit_mm || isRim(texel, x, y)) return;
+    if (off_mm < -limit_mm) return;
     if (agrees) tally.inner += window.step * window.step;
     if (off_mm > limit_mm) {
       tally.seen_through += 1.0;
       return;
     }
-    tally.relief.add(2.0 * x / window.width - 1.0,
-                     2.0 * y / window.height - 1.0,
-                     seen - sphere.center_mm.z,
-                     off_mm,
-                     slant);
+    tally.relief.add(across, down, seen - sphere.center_mm.z, off_mm, slant);
   }
 
   /// Whether the data goes on beyond the outline at a pixel: near its depth and in its slope, where
@@ -177,7 +179,9 @@ RP_HD CheckResult surfaceVerdict(const SurfaceTally& tally, const CheckOptions& 
   result.outline = outline;
   result.outline_covered = tally.border > 0.0 ? tally.border_covered / tally.border : 0.0;
   result.seen_through = pixels.pixels > 0.0 ? tally.seen_through / pixels.pixels : 0.0;
-  result.relief = reliefOf(tally.relief, kLeastDeviation * options.tolerance_mm);
+  const double least_mm = kLeastDeviation * options.tolerance_mm;
+  result.relief = reliefOf(tally.relief, least_mm);
+  result.whole_relief = reliefOfWhole(tally.whole, ownDeviation(tally.relief), least_mm);
   result.inner_px = tally.inner;
   return result;
 }

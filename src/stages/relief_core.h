@@ -87,4 +87,16 @@ RP_HD double reliefOf(const ReliefSums& sums, double least_mm) {
   return ratio < kLow ? kLow : ratio > kHigh ? kHigh : ratio;
 }
 
+/// The relief of a surface that is seen whole, with errors of `own_mm` [mm], 0..3. Sums are of the
+/// surface itself.
+RP_HD double reliefOfWhole(const ReliefSums& sums, double own_mm, double least_mm) {
+  constexpr double kHigh = 3.0;
+  if (!(sums.count > 0.0)) return 0.0;
+  const double own = own_mm > least_mm ? own_mm : least_mm;
+  // What the quadric leaves of the surface adds to the errors.
+  const double other = quadricResidual(sums) / sums.count;
+  const double ratio = 0.5 * std::log(1.0 + other / (own * own));
+  return ratio > kHigh ? kHigh : ratio;
+}
+
 }  // namespace rangepose

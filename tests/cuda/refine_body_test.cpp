@@ -132,6 +132,7 @@ void expectSame(const CheckResult& actual,
   EXPECT_EQ(actual.seen_through, expected.seen_through);
   EXPECT_EQ(actual.inner_px, expected.inner_px);
   EXPECT_NEAR(actual.relief, expected.relief, 1e-6);
+  EXPECT_NEAR(actual.whole_relief, expected.whole_relief, 1e-6);
 }
 
 TEST_P(RefineBodyTest, VerdictOnPointsIsTheHosts) {

@@ -16,6 +16,7 @@ CheckResult sure() {
   check.explained_mm2 = 950.0;
   check.outline = 0.98;
   check.relief = 2.0;
+  check.whole_relief = 2.5;
   check.inner_px = 2000.0;
   return check;
 }
@@ -48,6 +49,15 @@ TEST(EvidenceTest, WhatSpeaksAgainstAPoseMakesItLessSure) {
   EvidenceContext through_floor = context();
   through_floor.outside = 0.2;
   EXPECT_LT(oddsOf(sure(), through_floor), before) << "it reaches through the floor";
+}
+
+TEST(EvidenceTest, WhatTellsAPartFromPlainOnesMustBeSeen) {
+  CheckResult pin = sure();
+  pin.relief = 0.1;
+  CheckResult rod = pin;
+  rod.whole_relief = 0.1;
+  EXPECT_LT(probabilityOf(oddsOf(pin)), 0.75) << "a headed pin is found on a plain rod";
+  EXPECT_GT(oddsOf(rod), oddsOf(pin) + 1.0) << "a rod has nothing else to show";
 }
 
 TEST(EvidenceTest, NothingSeenThroughIsAsGoodAsAPixelOfIt) {

@@ -50,6 +50,17 @@ TEST(ReliefTest, APoseThatIsWorseThanASmoothSurfaceSaysSo) {
   EXPECT_EQ(reliefOf(sumsOf(plane, off), 1e-3), -1.0);
 }
 
+TEST(ReliefTest, OfAWholeSurfaceItIsWhatWouldBeSeenOfIt) {
+  const auto nothing = [](double, double) { return 0.0; };
+  const auto step = [](double x, double) { return x > 0.0 ? 1.0 : 0.0; };
+  const auto noise = [](double x, double y) { return 0.02 * wave(x, y); };
+  const ReliefSums seen = sumsOf([&](double x, double y) { return step(x, y) + noise(x, y); }, noise);
+  EXPECT_NEAR(reliefOfWhole(sumsOf(step, nothing), ownDeviation(seen), 1e-3), reliefOf(seen, 1e-3), 0.05)
+      << "a part in full view would seem to hide something";
+  const auto plane = [](double x, double y) { return 5.0 + 0.3 * x - 0.2 * y; };
+  EXPECT_NEAR(reliefOfWhole(sumsOf(plane, nothing), 0.01, 1e-3), 0.0, 1e-6);
+}
+
 TEST(ReliefTest, AFewPixelsOrALineSayNothingWrong) {
   ReliefSums few;
   for (int i = 0; i < 10; ++i) few.add(0.1 * i, 0.0, i, 0.0, 1.0);

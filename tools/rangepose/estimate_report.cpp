@@ -47,6 +47,7 @@ Json checkJson(const CheckResult& check) {
           {"outline_covered", finite(check.outline_covered, "check.outline_covered")},
           {"seen_through", finite(check.seen_through, "check.seen_through")},
           {"relief", finite(check.relief, "check.relief")},
+          {"whole_relief", finite(check.whole_relief, "check.whole_relief")},
           {"inner_px", finite(check.inner_px, "check.inner_px")},
           {"explained_mm2", finite(check.explained_mm2, "check.explained_mm2")},
           {"residual_mm", finite(check.residual_mm, "check.residual_mm")}};
