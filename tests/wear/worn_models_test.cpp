@@ -98,7 +98,7 @@ TEST(WornModelsTest, AllWearAtOnceLeavesThemClosed) {
   // These have neither hole nor opening with a sharp plane rim, or too wide a one (cup).
   EXPECT_THAT(without_lid,
               testing::UnorderedElementsAre(
-                  "bolt", "clevis_pin", "cup", "dowel", "pin", "rod", "star_knob"));
+                  "block", "bolt", "clevis_pin", "cup", "dowel", "pin", "plate", "rod", "star_knob"));
 }
 
 }  // namespace
