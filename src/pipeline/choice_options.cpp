@@ -9,7 +9,7 @@ void ChoiceOptions::check() const {
   RP_CHECK(same > 0.0 && at_rest > 0.0, "choice: same and at_rest must be above 0");
   RP_CHECK(isShare(rival) && isShare(shared), "choice: rival and shared must lie in 0..1");
   RP_CHECK(isShare(faint) && isShare(listed) && isShare(turned) && isShare(found) && isShare(sure) &&
-               isShare(settled),
+               isShare(settled) && isShare(turned_again),
            "choice: confidences must lie in 0..1");
   RP_CHECK(faint <= listed && listed <= found && found <= sure,
            "choice: faint, listed, found and sure must rise");

@@ -237,13 +237,15 @@ std::vector<Candidate> Selection::known() const {
 
 std::vector<Candidate> Selection::turnedCopies() {
   std::vector<Entry*> turned;
-  // Copies of the surest pose for a surface are there for its rivals as well.
+  // Copies of the surest pose for a surface serve rivals that are far less sure as well.
   for (const auto& entry : entries_) {
     if (entry->turned || entry->candidate.confidence < options_.turned) continue;
     const auto isSurer = [&](const Entry* rival) {
       return rival->turned && rival->candidate.rank >= entry->candidate.rank;
     };
-    if (std::any_of(entry->rivals.begin(), entry->rivals.end(), isSurer)) continue;
+    if (entry->candidate.confidence < options_.turned_again &&
+        std::any_of(entry->rivals.begin(), entry->rivals.end(), isSurer))
+      continue;
     entry->turned = true;
     turned.push_back(entry.get());
   }
