@@ -20,24 +20,24 @@ struct AlignOptions {
   CoarseRound all{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
   CoarseRound many{8, 1, 0.11, 2.0, 0.12, 6, 0.7};
   CoarseRound few{8, 2, 0.06, 1.5, 0.08, 16, 0.6};
-  int view_points = 220;       ///< of a view, in the last of these rounds
-  double coarse_rims = 0.2;    ///< weight of rims: where a pose is far off, an end of the data is a
-                               ///< surer guide than what happens to lie near its faces
-  double glanced = 0.15;       ///< rank below which a coarse pose is not rendered, the best excepted
-  int fine_iterations = 12;    ///< of a round with a rendered surface
-  double first_reach = 6.0;    ///< of the first such round [tolerances]
-  double later_reach = 1.5;    ///< of later ones [tolerances]
-  double nearly_right = 4.0;   ///< with no more reach partners are looked for nearby [tolerances]
-  double hopeless = -2.0;      ///< no long alignment makes such a pose right [log odds]
-  int rest_points = 900;       ///< of a surface whose pose is to rest
-  int rest_rounds = 8;         ///< for that, at most
-  int tie_rounds = 16;         ///< the same for poses that the image hardly tells apart
-  double worse = 3.0;          ///< what an alignment makes worse than that stays as it was [log odds]
-  int settle_iterations = 4;   ///< with every pixel
-  int settle_rounds = 2;       ///< of rendering
-  int settle_px = 400;         ///< a side of a surface: of more, every second pixel is enough
-  double held = 1e-3;          ///< a twin that moves by more is free to move [diameters]
-  void check() const;          ///< throws Error naming the bad field
+  int view_points = 220;      ///< of a view, in the last of these rounds
+  double coarse_rims = 0.2;   ///< weight of rims: where a pose is far off, an end of the data is a
+                              ///< surer guide than what happens to lie near its faces
+  double glanced = 0.15;      ///< rank below which a coarse pose is not rendered, the best excepted
+  int fine_iterations = 12;   ///< of a round with a rendered surface
+  double first_reach = 6.0;   ///< of the first such round [tolerances]
+  double later_reach = 1.5;   ///< of later ones [tolerances]
+  double nearly_right = 4.0;  ///< with no more reach partners are looked for nearby [tolerances]
+  double hopeless = -2.0;     ///< no long alignment makes such a pose right [log odds]
+  int rest_points = 900;      ///< of a surface whose pose is to rest
+  int rest_rounds = 8;        ///< for that, at most
+  int tie_rounds = 16;        ///< the same for poses that the image hardly tells apart
+  double worse = 3.0;  ///< what an alignment makes worse than that stays as it was [log odds]
+  int settle_iterations = 4;  ///< with every pixel
+  int settle_rounds = 2;      ///< of rendering
+  int settle_px = 400;        ///< a side of a surface: of more, every second pixel is enough
+  double held = 1e-3;         ///< a twin that moves by more is free to move [diameters]
+  void check() const;         ///< throws Error naming the bad field
 };
 
 }  // namespace rangepose

@@ -97,17 +97,24 @@ void setVerdict(Candidate& candidate, const CheckResult& check, double mean_visi
   candidate.rank = check.score * std::sqrt(check.explained_mm2 / mean_visible_mm2);
 }
 
-void setTerm(Candidate& candidate, EvidenceTerm term, double value) {
-  candidate.evidence[static_cast<std::size_t>(term)] = value;
+namespace {
+
+void setOdds(Candidate& candidate) {
   candidate.rank = logOddsOf(candidate.evidence, candidate.check.inner_px);
   candidate.confidence = probabilityOf(candidate.rank);
+}
+
+}  // namespace
+
+void setTerm(Candidate& candidate, EvidenceTerm term, double value) {
+  candidate.evidence[static_cast<std::size_t>(term)] = value;
+  setOdds(candidate);
 }
 
 void setEvidence(Candidate& candidate, const CheckResult& check, double mean_visible_mm2) {
   candidate.check = check;
   candidate.evidence = evidenceTerms(check, {mean_visible_mm2, candidate.outside});
-  candidate.rank = logOddsOf(candidate.evidence, candidate.check.inner_px);
-  candidate.confidence = probabilityOf(candidate.rank);
+  setOdds(candidate);
 }
 
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {

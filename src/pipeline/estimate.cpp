@@ -76,7 +76,8 @@ class Estimator {
     const std::unique_ptr<ResidentDepth> left =
         passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : whole_;
-    const RefineScene scene{depth_, resident, result_.noise_mm, enclosure_, stages_, options_.align};
+    const RefineScene scene{
+        depth_, resident, result_.noise_mm, enclosure_, stages_, options_.align};
     const LateralExtent extent = extentOf(resident);
     Pass pass;
     std::vector<Candidate>& candidates = pass.checked;

@@ -50,8 +50,8 @@ struct PoseEstimate {
   Pose pose;                 ///< camera_from_object, refined
   float rough_error = 0.0f;  ///< Eq. 1
   int view = 0;
-  double confidence = 0.0;  ///< that the pose is right, 0..1
-  CheckResult check;        ///< of the rendered pose
+  double confidence = 0.0;   ///< that the pose is right, 0..1
+  CheckResult check;         ///< of the rendered pose
   EvidenceTerms evidence{};  ///< what the confidence comes from
 };
 
@@ -90,7 +90,7 @@ struct EstimateTrace {
 struct Estimate {
   std::vector<PoseEstimate> poses;  ///< best first; empty is a valid answer
   StageTimes times;
-  SensorFacts sensor;  ///< what the image tells of it
+  SensorFacts sensor;     ///< what the image tells of it
   double noise_mm = 0.0;  ///< sensor.noise_mm: what tolerances go by [mm]
   std::vector<BackgroundPlane> background;
   std::vector<std::string> warnings;  ///< one line each

@@ -35,9 +35,8 @@ EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& con
   // Where nothing is known of the outline, half of it.
   const double ends = known > 1e-3 ? (check.outline - 0.5 * check.outline_covered) / known : 0.5;
   const double area_mm2 =
-      check.explained > 0.0
-          ? check.explained_mm2 * (check.explained + check.weak) / check.explained
-          : 0.0;
+      check.explained > 0.0 ? check.explained_mm2 * (check.explained + check.weak) / check.explained
+                            : 0.0;
   const double visible = std::min(area_mm2 / context.mean_visible_mm2, 1.0);
   return {1.0,
           std::log(check.seen_through + kLittleThrough),
@@ -61,8 +60,7 @@ const EvidenceTerms& evidenceWeights() {
 }
 
 double logOddsOf(const EvidenceTerms& terms, double inner_px) {
-  const double sum =
-      std::inner_product(terms.begin(), terms.end(), evidenceWeights().begin(), 0.0);
+  const double sum = std::inner_product(terms.begin(), terms.end(), evidenceWeights().begin(), 0.0);
   const double observations = inner_px / kObservationPx;
   if (!(observations > 0.0)) return -std::numeric_limits<double>::infinity();
   return std::min(sum, std::log(observations / kDoubt));

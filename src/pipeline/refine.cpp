@@ -178,8 +178,8 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     RenderTask& task = tasks.emplace_back(
         surfaceTask(object, candidates[i].pose, scene.depth.camera, scene.noise_mm));
     task.max_points = fine.points;
-    task.alignment =
-        icpOptions(reach_tolerances * tolerance, fine.last_reach * tolerance, scene.align.fine_iterations);
+    task.alignment = icpOptions(
+        reach_tolerances * tolerance, fine.last_reach * tolerance, scene.align.fine_iterations);
     task.alignment.search_steps = reach_tolerances > scene.align.nearly_right ? 2 : 1;
     task.alignment.slide = 0.0;
     task.alignment.rim_reach_mm = fine.rim_reach * object.diameter_mm;
@@ -208,8 +208,7 @@ void checkAll(std::vector<Candidate>& candidates,
     Candidate& candidate = candidates[i];
     candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
   });
-  setVerdicts(
-      candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setEvidence);
+  setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setEvidence);
 }
 
 /// Aligns all until they rest, then checks them.
@@ -243,15 +242,22 @@ void refineFinely(std::vector<Candidate>& candidates,
                   const RefineScene& scene,
                   const FineEffort& effort) {
   if (candidates.empty()) return;
-  candidates.erase(std::remove_if(candidates.begin() + 1,
-                                  candidates.end(),
-                                  [&](const Candidate& one) { return one.rank < scene.align.glanced; }),
-                   candidates.end());
-  refineAll(candidates, database, scene, {effort.rounds, effort.points, scene.align.first_reach, effort.still});
+  candidates.erase(
+      std::remove_if(candidates.begin() + 1,
+                     candidates.end(),
+                     [&](const Candidate& one) { return one.rank < scene.align.glanced; }),
+      candidates.end());
+  refineAll(candidates,
+            database,
+            scene,
+            {effort.rounds, effort.points, scene.align.first_reach, effort.still});
   std::erase_if(candidates, [&](const Candidate& one) { return one.rank < scene.align.hopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
   unlessWorse(candidates, scene.align.worse, [&] {
-    refineAll(candidates, database, scene, {scene.align.rest_rounds, scene.align.rest_points, 3.0, effort.still});
+    refineAll(candidates,
+              database,
+              scene,
+              {scene.align.rest_rounds, scene.align.rest_points, 3.0, effort.still});
   });
 }
 
@@ -259,7 +265,10 @@ void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
   unlessWorse(candidates, scene.align.worse, [&] {
-    refineAll(candidates, database, scene, {scene.align.tie_rounds, scene.align.rest_points, 1.5, 1e-5, 0.5, 0.08});
+    refineAll(candidates,
+              database,
+              scene,
+              {scene.align.tie_rounds, scene.align.rest_points, 1.5, 1e-5, 0.5, 0.08});
   });
 }
 
@@ -273,8 +282,8 @@ void alignPixels(std::vector<Candidate>& candidates,
   for (const Candidate& candidate : candidates) {
     const ReferenceObject& object = objectOf(candidate, database);
     const double tolerance_mm = toleranceFor(object, scene.noise_mm);
-    RenderTask& task = tasks.emplace_back(
-        surfaceTask(object, candidate.pose, scene.depth.camera, scene.noise_mm, scene.align.settle_px));
+    RenderTask& task = tasks.emplace_back(surfaceTask(
+        object, candidate.pose, scene.depth.camera, scene.noise_mm, scene.align.settle_px));
     task.max_points = scene.align.settle_px * scene.align.settle_px;
     task.alignment = icpOptions(tolerance_mm, tolerance_mm, scene.align.settle_iterations);
     task.alignment.search_steps = 0;
@@ -291,7 +300,8 @@ void settle(std::vector<Candidate>& candidates,
             const ReferenceDatabase& database,
             const RefineScene& scene) {
   unlessWorse(candidates, scene.align.worse, [&] {
-    for (int round = 0; round < scene.align.settle_rounds; ++round) alignPixels(candidates, database, scene);
+    for (int round = 0; round < scene.align.settle_rounds; ++round)
+      alignPixels(candidates, database, scene);
     checkAll(candidates, database, scene);
   });
 }
@@ -305,7 +315,8 @@ void checkTwins(std::vector<Candidate>& candidates,
   settle(candidates, database, scene);
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const PoseDistance distance(objectOf(candidates[i], database));
-    if (!distance.below(scene.align.held, before[i].pose, candidates[i].pose)) candidates[i] = before[i];
+    if (!distance.below(scene.align.held, before[i].pose, candidates[i].pose))
+      candidates[i] = before[i];
   }
 }
 

@@ -98,7 +98,8 @@ void Selection::judgeAmongOthers() {
   FoundParts found(depth_.depth_mm.size());
   std::fill(owners_.begin(), owners_.end(), kNobody);
   std::vector<Entry*> hiding = chosen();
-  std::erase_if(hiding, [&](const Entry* one) { return one->candidate.confidence < options_.found; });
+  std::erase_if(hiding,
+                [&](const Entry* one) { return one->candidate.confidence < options_.found; });
   parallelForEach(hiding.size(), 1, [&](std::size_t i) { findExits(*hiding[i]); });
   for (const Entry* entry : hiding) {
     found.add(entry->pixels, entry->exit_mm);
@@ -106,8 +107,7 @@ void Selection::judgeAmongOthers() {
   }
   for (const auto& entry : entries_) {
     const ReferenceObject& object = objectOf(*entry);
-    const double mean_mm2 =
-        mean_visible_mm2_[static_cast<std::size_t>(entry->alone.object)];
+    const double mean_mm2 = mean_visible_mm2_[static_cast<std::size_t>(entry->alone.object)];
     if (entry->alone.check.explained_mm2 < options_.hidden_from * mean_mm2) continue;
     const double slack_mm = options_.slack * toleranceFor(object, noise_mm_);
     const double share = found.coveredShare(entry->pixels, entry->judged.buried, slack_mm);
@@ -144,7 +144,8 @@ void Selection::findExits(Entry& entry) const {
 }
 
 bool Selection::shareMost(const Entry& a, const Entry& b) const {
-  const double wanted = options_.rival * static_cast<double>(std::max(a.pixels.size(), b.pixels.size()));
+  const double wanted =
+      options_.rival * static_cast<double>(std::max(a.pixels.size(), b.pixels.size()));
   const int width = std::min(a.box.x1, b.box.x1) - std::max(a.box.x0, b.box.x0);
   const int height = std::min(a.box.y1, b.box.y1) - std::max(a.box.y0, b.box.y0);
   const double most = static_cast<double>(std::min(a.pixels.size(), b.pixels.size()));
@@ -190,7 +191,8 @@ std::vector<Selection::Entry*> Selection::chosen() const {
     const auto shared = std::count_if(entry.pixels.begin(), entry.pixels.end(), [&](int at) {
       return taken[static_cast<std::size_t>(at)] != 0;
     });
-    return static_cast<double>(shared) <= options_.shared * static_cast<double>(entry.pixels.size());
+    return static_cast<double>(shared) <=
+           options_.shared * static_cast<double>(entry.pixels.size());
   };
   for (const auto& entry : entries_) {
     if (!(entry->candidate.confidence >= options_.listed) || !isFree(*entry)) continue;
@@ -272,7 +274,7 @@ std::vector<Candidate> Selection::takeTies() {
     if (std::find(ties.begin(), ties.end(), entry) == ties.end()) ties.push_back(entry);
   };
   for (Entry* entry : chosen_) {
-    if (!(entry->candidate.confidence >= options_.settled)) continue;
+    if (!isSettled(*entry)) continue;
     const double close_mm = closeMm(*entry);
     for (Entry* rival : entry->rivals) {
       if (std::abs(preference(*rival, *entry, close_mm)) > options_.tie) continue;
@@ -285,9 +287,7 @@ std::vector<Candidate> Selection::takeTies() {
 
 std::vector<Candidate> Selection::takeChosen() {
   std::vector<Entry*> entries = chosen_;
-  std::erase_if(entries, [&](const Entry* one) {
-    return !(one->candidate.confidence >= options_.settled);
-  });
+  std::erase_if(entries, [&](const Entry* one) { return !isSettled(*one); });
   return take(entries);
 }
 
@@ -303,7 +303,7 @@ std::vector<Candidate> Selection::take(const std::vector<Entry*>& entries) {
 std::vector<Candidate> Selection::twinsOfChosen() const {
   std::vector<Candidate> twins;
   for (const Entry* entry : chosen_) {
-    if (!(entry->candidate.confidence >= options_.settled)) continue;
+    if (!isSettled(*entry)) continue;
     for (const Pose& twin : objectOf(*entry).twins) {
       twins.push_back(entry->alone);
       twins.back().pose = entry->alone.pose * twin;

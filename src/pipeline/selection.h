@@ -71,6 +71,10 @@ class Selection {
   const ReferenceObject& objectOf(const Entry& entry) const {
     return database_.objects[static_cast<std::size_t>(entry.candidate.object)];
   }
+  /// Whether it is worth being brought to rest.
+  bool isSettled(const Entry& entry) const {
+    return entry.candidate.confidence >= options_.settled;
+  }
   const Entry* find(const Candidate& candidate) const;
   /// Among the entries before it.
   void findRivals(Entry& entry);

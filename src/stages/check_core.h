@@ -34,10 +34,10 @@ struct CheckResult {
                                  ///< no measurement; counts half
   double seen_through = 0.0;     ///< in front of the data by more than twice the tolerance, and not
                                  ///< beside an outline or a jump, where sensors smear depth
-  double relief = 0.0;  ///< reliefOf() what agrees: how much likelier it is with the part there than
-                        ///< with a smooth surface, logarithm for a pixel, -1..3
-  double whole_relief = 0.0;  ///< relief that there would be if all of the surface were seen, 0..3
-  double inner_px = 0.0;  ///< agreeing pixels that are not beside an outline or a jump [px]
+  double relief = 0.0;  ///< reliefOf() what agrees: how much likelier it is with the part there
+                        ///< than with a smooth surface, logarithm for a pixel, -1..3
+  double whole_relief = 0.0;   ///< relief that there would be if all of the surface were seen, 0..3
+  double inner_px = 0.0;       ///< agreeing pixels that are not beside an outline or a jump [px]
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]
   int pixels = 0;              ///< rendered pixels

@@ -49,9 +49,9 @@ struct ReferenceObject {
   double diameter_mm = 0.0;   ///< largest distance between two vertices [mm]
   double thickness_mm = 0.0;  ///< smallest extent, of sheet metal that of the sheet; 0: not known
   PlaneExtent flat_face;      ///< largest length and width of its flat faces; 0: not known
-  double pixel_mm = 0.0;          ///< width of a pixel of a view [mm]
-  int size = 64;                  ///< a tile is size x size pixels
-  int edt_passes = 0;  ///< passes of the distance transform: EDT values reach edt_passes + 1
+  double pixel_mm = 0.0;      ///< width of a pixel of a view [mm]
+  int size = 64;              ///< a tile is size x size pixels
+  int edt_passes = 0;         ///< passes of the distance transform: EDT values reach edt_passes + 1
   std::vector<ReferenceView> views;  ///< view i lies in tile i
   Image<ReferenceTexel> atlas;       ///< tiles in rows of `columns()`
 

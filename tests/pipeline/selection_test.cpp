@@ -179,7 +179,8 @@ TEST_F(TurnedBarTest, WhatIsChosenIsTakenOutAsItWasFound) {
   selection.add({right_, turned_});
   const std::vector<Candidate> taken = selection.takeChosen();
   ASSERT_EQ(taken.size(), 1u);
-  EXPECT_NEAR(taken[0].rank, right_.rank, 1e-9) << "what the choice made of it would be counted twice";
+  EXPECT_NEAR(taken[0].rank, right_.rank, 1e-9)
+      << "what the choice made of it would be counted twice";
   EXPECT_FALSE(selection.knows(right_)) << "it would stay as it was";
   EXPECT_TRUE(selection.knows(turned_)) << "without its rivals a pose is surer than it should be";
   EXPECT_TRUE(selection.takeChosen().empty());

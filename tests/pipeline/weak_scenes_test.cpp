@@ -196,9 +196,8 @@ TEST(PartNotThereTest, NothingIsFoundOnWallsAlone) {
 }
 
 TEST(PartNotThereTest, NoPinIsSureOnPlainRods) {
-  const Estimate estimate = test::estimateAll(binOf("fitting/rod").scan.image,
-                                              databaseOf("fitting/pin"),
-                                              binOf("fitting/rod").box);
+  const Estimate estimate = test::estimateAll(
+      binOf("fitting/rod").scan.image, databaseOf("fitting/pin"), binOf("fitting/rod").box);
   for (const PoseEstimate& pose : estimate.poses) {
     EXPECT_LT(pose.confidence, test::kSure)
         << "its head, which tells it from a rod, is not in the data: relief " << pose.check.relief

@@ -240,7 +240,8 @@ TEST(CheckTest, WhatTheSensorSawThroughCountsInsideOnly) {
   for (int v = 1; v < 239; ++v) {
     for (int u = 1; u < 319; ++u) {
       const float beside = sharp.at(u - 1, v);
-      if (sharp.at(u, v) > 0.0f && beside > sharp.at(u, v)) smeared.image.depth_mm.at(u, v) = beside;
+      if (sharp.at(u, v) > 0.0f && beside > sharp.at(u, v))
+        smeared.image.depth_mm.at(u, v) = beside;
     }
   }
   EXPECT_LT(smeared.check().seen_through, 0.002) << "sensors that smear jumps would lose parts";

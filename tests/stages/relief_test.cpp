@@ -1,11 +1,10 @@
 // Whether a surface is smooth enough to be anything: read wrongly, a part is found on rods and
 // plates, or not found at all.
-#include "stages/relief_core.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
+#include "stages/relief_core.h"
 
 namespace rangepose {
 namespace {
@@ -31,7 +30,8 @@ double wave(double x, double y) { return std::sin(40.0 * x + 13.0) * std::cos(31
 TEST(ReliefTest, ARodIsAsGoodAsAnyOther) {
   const auto rod = [](double x, double y) { return 0.1 * y - std::sqrt(9.0 - x * x); };
   const auto noise = [](double x, double y) { return 0.02 * wave(x, y); };
-  const ReliefSums sums = sumsOf([&](double x, double y) { return rod(x, y) + noise(x, y); }, noise);
+  const ReliefSums sums =
+      sumsOf([&](double x, double y) { return rod(x, y) + noise(x, y); }, noise);
   EXPECT_NEAR(reliefOf(sums, 1e-3), 0.0, 0.1) << "parts are found on rods of another kind";
 }
 
@@ -54,8 +54,10 @@ TEST(ReliefTest, OfAWholeSurfaceItIsWhatWouldBeSeenOfIt) {
   const auto nothing = [](double, double) { return 0.0; };
   const auto step = [](double x, double) { return x > 0.0 ? 1.0 : 0.0; };
   const auto noise = [](double x, double y) { return 0.02 * wave(x, y); };
-  const ReliefSums seen = sumsOf([&](double x, double y) { return step(x, y) + noise(x, y); }, noise);
-  EXPECT_NEAR(reliefOfWhole(sumsOf(step, nothing), ownDeviation(seen), 1e-3), reliefOf(seen, 1e-3), 0.05)
+  const ReliefSums seen =
+      sumsOf([&](double x, double y) { return step(x, y) + noise(x, y); }, noise);
+  EXPECT_NEAR(
+      reliefOfWhole(sumsOf(step, nothing), ownDeviation(seen), 1e-3), reliefOf(seen, 1e-3), 0.05)
       << "a part in full view would seem to hide something";
   const auto plane = [](double x, double y) { return 5.0 + 0.3 * x - 0.2 * y; };
   EXPECT_NEAR(reliefOfWhole(sumsOf(plane, nothing), 0.01, 1e-3), 0.0, 1e-6);

@@ -1,11 +1,10 @@
 // What an image tells of its sensor: taken for finer than it is, right poses are refused.
-#include "stages/sensor_facts_host.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <random>
 
+#include "stages/sensor_facts_host.h"
 #include "support/shapes.h"
 
 namespace rangepose {
@@ -21,7 +20,8 @@ DepthImage blocks(int smeared_px, const Between& between) {
       const int in = u % kPitch;
       if (in >= 20 && in < 60) image.depth_mm.at(u, v) = 520.0f;
       for (int k = 0; k < smeared_px; ++k) {
-        const float share = (static_cast<float>(k) + 1.0f) / (static_cast<float>(smeared_px) + 1.0f);
+        const float share =
+            (static_cast<float>(k) + 1.0f) / (static_cast<float>(smeared_px) + 1.0f);
         if (in == 60 + k) image.depth_mm.at(u, v) = between(share);
         if (in == 19 - k) image.depth_mm.at(u, v) = between(share);
       }

@@ -96,9 +96,10 @@ TEST(WornModelsTest, AllWearAtOnceLeavesThemClosed) {
     }
   }
   // These have neither hole nor opening with a sharp plane rim, or too wide a one (cup).
-  EXPECT_THAT(without_lid,
-              testing::UnorderedElementsAre(
-                  "block", "bolt", "clevis_pin", "cup", "dowel", "pin", "plate", "rod", "star_knob"));
+  EXPECT_THAT(
+      without_lid,
+      testing::UnorderedElementsAre(
+          "block", "bolt", "clevis_pin", "cup", "dowel", "pin", "plate", "rod", "star_knob"));
 }
 
 }  // namespace

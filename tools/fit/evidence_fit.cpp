@@ -45,7 +45,8 @@ EvidenceTerms spreadOf(const std::vector<EvidenceRow>& rows) {
 EvidenceTerms fitEvidence(const std::vector<EvidenceRow>& rows) {
   constexpr int kSteps = 60;
   constexpr double kLongestStep = 3.0;
-  const auto right = std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.right; });
+  const auto right =
+      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.right; });
   if (right == 0 || right == static_cast<std::ptrdiff_t>(rows.size())) {
     throw Error("fit: the table needs right and wrong poses");
   }

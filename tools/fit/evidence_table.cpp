@@ -39,7 +39,8 @@ EvidenceRow rowOf(const std::vector<std::string>& cells) {
   row.score = std::stod(cells[7]);
   row.inner_px = std::stod(cells[8]);
   row.terms[0] = 1.0;
-  for (std::size_t i = 1; i < kEvidenceTerms; ++i) row.terms[i] = std::stod(cells[kOwnColumns + i - 1]);
+  for (std::size_t i = 1; i < kEvidenceTerms; ++i)
+    row.terms[i] = std::stod(cells[kOwnColumns + i - 1]);
   return row;
 }
 

@@ -2,14 +2,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <exception>
 #include <iostream>
 #include <map>
+#include <numeric>
 
 #include "core/error.h"
-#include "core/parallel.h"
+#include "eval/judged_poses.h"
 #include "fit/evidence_fit.h"
 #include "fit/table_run.h"
 #include "io/atomic_file.h"
@@ -44,15 +43,8 @@ void runTable(const Arguments& arguments) {
   const gate::Recipes recipes = gate::readRecipes(arguments.recipes);
   TablePlan plan;
   plan.set = recipes.set(arguments.set);
-  if (!arguments.kinds.empty()) {
-    std::erase_if(plan.set.kinds, [&](const gate::BinKind& kind) {
-      return std::find(arguments.kinds.begin(), arguments.kinds.end(), kind.name) ==
-             arguments.kinds.end();
-    });
-  }
-  for (const std::string& name : arguments.sensors) plan.sensors.push_back(recipes.sensor(name));
-  if (plan.sensors.empty()) plan.sensors = recipes.sensors;
-  plan.bins = arguments.bins;
+  plan.set.kinds = gate::kindsOf(plan.set, arguments.kinds, arguments.bins);
+  plan.sensors = gate::sensorsOf(recipes, arguments.sensors);
   plan.models = arguments.models;
   plan.program = arguments.binary;
   gate::Cache cache(arguments.cache, 0);
@@ -62,37 +54,26 @@ void runTable(const Arguments& arguments) {
 
 /// How the scores of the chosen poses fit, sensor by sensor.
 void printCalibration(const std::vector<EvidenceRow>& rows, const EvidenceTerms& weights) {
-  std::map<std::string, std::vector<std::pair<double, bool>>> of_sensor;
+  std::map<std::string, std::vector<JudgedPose>> of_sensor;
   for (const EvidenceRow& row : rows) {
     if (!row.chosen) continue;
-    double odds = 0.0;
-    for (std::size_t i = 0; i < kEvidenceTerms; ++i) odds += weights[i] * row.terms[i];
-    of_sensor[row.sensor].emplace_back(probabilityOf(odds), row.right);
+    const double odds =
+        std::inner_product(row.terms.begin(), row.terms.end(), weights.begin(), 0.0);
+    of_sensor[row.sensor].push_back(
+        {probabilityOf(odds), row.right ? PoseVerdict::kFound : PoseVerdict::kFalse});
   }
-  fmt::print("| sensor | chosen | log loss | ");
-  for (int tenth = 0; tenth < 10; ++tenth) fmt::print("{:.1f} | ", 0.1 * tenth);
-  fmt::print("\n|{}\n", std::string("---|") + "---|---|---|---|---|---|---|---|---|---|---|---|");
+  fmt::print("| sensor | score | poses | mean score | right [%] |\n|---|---|---|---|---|\n");
   for (const auto& [sensor, poses] : of_sensor) {
-    double loss = 0.0;
-    std::array<int, 10> count{};
-    std::array<double, 10> right{};
-    std::array<double, 10> score{};
-    for (const auto& [p, is_right] : poses) {
-      loss -= std::log(std::max(is_right ? p : 1.0 - p, 1e-9));
-      const auto tenth = std::min<std::size_t>(static_cast<std::size_t>(10.0 * p), 9);
-      ++count[tenth];
-      right[tenth] += is_right ? 1.0 : 0.0;
-      score[tenth] += p;
+    for (const ReliabilityBin& bin : reliabilityOf(poses)) {
+      if (bin.count == 0) continue;
+      fmt::print("| {} | {:.1f} to {:.1f} | {} | {:.3f} | {:.1f} |\n",
+                 sensor,
+                 bin.low,
+                 bin.high,
+                 bin.count,
+                 bin.mean_score,
+                 100.0 * bin.right);
     }
-    fmt::print("| {} | {} | {:.3f} | ", sensor, poses.size(), loss / static_cast<double>(poses.size()));
-    for (std::size_t i = 0; i < 10; ++i) {
-      if (count[i] == 0) {
-        fmt::print("- | ");
-      } else {
-        fmt::print("{:.2f} for {:.2f} ({}) | ", right[i] / count[i], score[i] / count[i], count[i]);
-      }
-    }
-    fmt::print("\n");
   }
 }
 
@@ -117,7 +98,8 @@ int run(int argc, char** argv) {
   CLI::App* table = app.add_subcommand("table", "Writes a table of known poses and their evidence");
   table->add_option("--out", arguments.out, "The table")->required();
   table->add_flag("--examples", arguments.examples, "Only poses that weights are fitted to");
-  table->add_option("--set", arguments.set, "Of bins: fit, choose or report")->capture_default_str();
+  table->add_option("--set", arguments.set, "Of bins: fit, choose or report")
+      ->capture_default_str();
   table->add_option("--sensor", arguments.sensors, "Only these [all of the recipes]");
   table->add_option("--kind", arguments.kinds, "Only these kinds of bins [all of the set]");
   table->add_option("--bins", arguments.bins, "Bins of each kind [as in the recipes]")

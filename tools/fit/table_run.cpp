@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 
 #include "core/parallel.h"
@@ -62,7 +63,8 @@ class KindRun {
         const std::vector<EvidenceRow> own =
             rowsOf(depth, image, Truth(kind_, truths.at(image.im_id)), stages);
         rows.insert(rows.end(), own.begin(), own.end());
-        for (auto row = rows.end() - static_cast<std::ptrdiff_t>(own.size()); row != rows.end(); ++row)
+        for (auto row = rows.end() - static_cast<std::ptrdiff_t>(own.size()); row != rows.end();
+             ++row)
           row->scene = scene.scene_id;
       }
     }
@@ -105,9 +107,9 @@ class KindRun {
                const Truth& truth,
                const Camera& camera,
                const Image<float>& distances) const {
-    constexpr double kRight = 0.1;    // of the diameter
+    constexpr double kRight = 0.1;     // of the diameter
     constexpr double kUnlike = 0.005;  // see PickingOptions
-    constexpr double kFar = 0.5;      // of the diameter: nothing alike
+    constexpr double kFar = 0.5;       // of the diameter: nothing alike
     const auto object = static_cast<std::size_t>(candidate.object);
     const ErrorModel& model = *models_[object];
     for (const BopTruth& one : truth.parts) {
@@ -118,8 +120,7 @@ class KindRun {
       if (glm::distance(off * model.sphere().center_mm, model.sphere().center_mm) >
           kFar * diameter_mm)
         continue;
-      if (mssdErrorMm(model, candidate.pose, true_pose, kFar * diameter_mm) <
-          kRight * diameter_mm)
+      if (mssdErrorMm(model, candidate.pose, true_pose, kFar * diameter_mm) < kRight * diameter_mm)
         return true;
       if (unlikeness(distances,
                      renderPosed(model.mesh(), camera, candidate.pose),
@@ -146,8 +147,7 @@ std::vector<EvidenceRow> evidenceTable(const TablePlan& plan, gate::Cache& cache
   int done = 0;
   std::vector<EvidenceRow> rows;
   for (const gate::SensorRecipe& sensor : plan.sensors) {
-    for (gate::BinKind kind : plan.set.kinds) {
-      if (plan.bins > 0) kind.bins = plan.bins;
+    for (const gate::BinKind& kind : plan.set.kinds) {
       KindRun(plan, cache, sensor, kind).addTo(rows, *stages);
       progress.update(++done);
     }

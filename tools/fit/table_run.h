@@ -1,5 +1,5 @@
-// Makes the table of evidence: all poses that rangepose knows of in simulated bins, and whether they
-// are right.
+// Makes the table of evidence: all poses that rangepose knows of in simulated bins, and whether
+// they are right.
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,6 @@ namespace rangepose::fit {
 struct TablePlan {
   gate::BinSet set;
   std::vector<gate::SensorRecipe> sensors;
-  int bins = 0;  ///< of each kind; 0: as in the recipes
   std::filesystem::path models;
   std::filesystem::path program;  ///< a rangepose, which makes bins and databases
 };

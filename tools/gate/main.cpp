@@ -102,31 +102,11 @@ std::vector<System> systemsOf(const Arguments& arguments) {
   return systems;
 }
 
-std::vector<BinKind> kindsOf(const BinSet& set, const Arguments& arguments) {
-  std::vector<BinKind> kinds;
-  std::string names;
-  for (const BinKind& kind : set.kinds) {
-    names += (names.empty() ? "" : ", ") + kind.name;
-    const auto& wanted = arguments.kinds;
-    if (wanted.empty() || std::find(wanted.begin(), wanted.end(), kind.name) != wanted.end()) {
-      kinds.push_back(kind);
-      if (arguments.bins > 0) kinds.back().bins = arguments.bins;
-    }
-  }
-  if (kinds.size() < arguments.kinds.size()) {
-    throw Error(fmt::format("set {}: a --kind is not in it; there are {}", set.name, names));
-  }
-  return kinds;
-}
-
 GatePlan planOf(const Arguments& arguments, const Recipes& recipes, const std::string& set) {
   GatePlan plan;
   plan.set = recipes.set(set);
-  plan.kinds = kindsOf(plan.set, arguments);
-  for (const std::string& name : arguments.sensors) {
-    plan.sensors.push_back(recipes.sensor(name));
-  }
-  if (plan.sensors.empty()) plan.sensors = recipes.sensors;
+  plan.kinds = kindsOf(plan.set, arguments.kinds, arguments.bins);
+  plan.sensors = sensorsOf(recipes, arguments.sensors);
   plan.models = arguments.models;
   plan.simulator = arguments.simulator.empty() ? arguments.binary : arguments.simulator;
   plan.systems = systemsOf(arguments);

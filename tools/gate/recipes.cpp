@@ -147,6 +147,28 @@ const SensorRecipe& Recipes::sensor(const std::string& name) const {
   return named(sensors, name, "sensor");
 }
 
+std::vector<BinKind> kindsOf(const BinSet& set, const std::vector<std::string>& names, int bins) {
+  std::vector<BinKind> kinds;
+  std::string known;
+  for (const BinKind& kind : set.kinds) {
+    known += (known.empty() ? "" : ", ") + kind.name;
+    if (names.empty() || std::find(names.begin(), names.end(), kind.name) != names.end()) {
+      kinds.push_back(kind);
+      if (bins > 0) kinds.back().bins = bins;
+    }
+  }
+  if (kinds.size() < names.size()) {
+    throw Error(fmt::format("set {}: a --kind is not in it; there are {}", set.name, known));
+  }
+  return kinds;
+}
+
+std::vector<SensorRecipe> sensorsOf(const Recipes& recipes, const std::vector<std::string>& names) {
+  std::vector<SensorRecipe> sensors;
+  for (const std::string& name : names) sensors.push_back(recipes.sensor(name));
+  return sensors.empty() ? recipes.sensors : sensors;
+}
+
 Recipes parseRecipes(std::string_view text, const std::string& where) {
   const json value = parseJsonObject(text, where);
   StrictObject object(value, where);

@@ -47,6 +47,12 @@ struct Recipes {
   const SensorRecipe& sensor(const std::string& name) const;
 };
 
+/// The kinds of a set with these names, all where none is given; `bins` of each, 0: as the recipes
+/// say. Throws Error, naming those that there are, for other names.
+std::vector<BinKind> kindsOf(const BinSet& set, const std::vector<std::string>& names, int bins);
+/// The sensors with these names, all where none is given. Throws Error for other names.
+std::vector<SensorRecipe> sensorsOf(const Recipes& recipes, const std::vector<std::string>& names);
+
 /// A set takes the seeds from its own on, this many; no two sets may share one.
 inline constexpr std::uint64_t kSeedsOfSet = 100;
 

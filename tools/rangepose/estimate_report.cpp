@@ -73,7 +73,8 @@ Json sensorJson(const SensorFacts& sensor) {
 
 std::string sensorLine(const SensorFacts& sensor) {
   return fmt::format(
-      "sensor: noise {:.3f} mm, steps of {:.3g} mm, jumps smeared over {:.1f} px, {:.1f} px lost at "
+      "sensor: noise {:.3f} mm, steps of {:.3g} mm, jumps smeared over {:.1f} px, {:.1f} px lost "
+      "at "
       "a jump, {:.1f} % lost in all\n",
       sensor.noise_mm,
       sensor.step_mm,
