@@ -20,6 +20,9 @@ struct Camera {
   bool orthographic = false;   ///< parallel rays along z
   double pixel_size_mm = 0.0;  ///< width of a pixel of an orthographic scan [mm]
 
+  double error_mm = 0.0;       ///< standard deviation of a depth, where known: tolerances go by it;
+                               ///< 0: it is measured in each image [mm]
+
   /// The point seen at pixel (u, v) at depth z_mm (distance along z, not along the ray).
   RP_HD glm::dvec3 unproject(double u, double v, double z_mm) const {
     if (orthographic) return {(u - cx) * pixel_size_mm, (v - cy) * pixel_size_mm, z_mm};

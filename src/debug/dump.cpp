@@ -159,7 +159,7 @@ void StageDump::addOverlay(const std::string& name,
 }
 
 void StageDump::finish(const StageTimes& times, const std::vector<OverlayPose>& poses) const {
-  const std::string page = dumpPage(title_, entries_, times, poses);
+  const std::string page = dumpPage(title_, entries_, times, poses, sensor_);
   writeFileAtomically(directory_ / "index.html", page);
 }
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <opencv2/core.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "stages/reference.h"
 #include "stages/scene_channels.h"
 #include "stages/search.h"
+#include "stages/sensor_facts.h"
 
 namespace rangepose::debug {
 
@@ -64,6 +66,9 @@ class StageDump {
                   const std::string& caption,
                   const cv::Mat& picture);
 
+  /// What the image tells of its sensor: a table of index.html.
+  void addSensor(const SensorFacts& sensor) { sensor_ = sensor; }
+
   /// Writes index.html with all pictures so far, the final poses and the times.
   void finish(const StageTimes& times, const std::vector<OverlayPose>& poses) const;
 
@@ -72,6 +77,7 @@ class StageDump {
 
  private:
   std::filesystem::path directory_;
+  std::optional<SensorFacts> sensor_;
   std::string title_;
   std::vector<DumpEntry> entries_;
 };
@@ -80,6 +86,7 @@ class StageDump {
 std::string dumpPage(const std::string& title,
                      const std::vector<DumpEntry>& entries,
                      const StageTimes& times,
-                     const std::vector<OverlayPose>& poses);
+                     const std::vector<OverlayPose>& poses,
+                     const std::optional<SensorFacts>& sensor = {});
 
 }  // namespace rangepose::debug

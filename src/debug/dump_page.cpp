@@ -102,6 +102,20 @@ std::string timeTable(const StageTimes& times) {
          "</td><td></td></tr>\n</table></section>\n";
 }
 
+std::string sensorTable(const SensorFacts& sensor) {
+  const auto row = [](const char* what, const std::string& figure) {
+    return std::string("<tr><td>") + what + "</td><td class=\"n\">" + figure + "</td></tr>\n";
+  };
+  return "<section><h2>Sensor</h2><p class=\"small\">What this image tells of it; tolerances go by "
+         "the error.</p>\n<table>\n" +
+         row("noise, against neighbours [mm]", number(sensor.noise_mm, 3)) +
+         row("error, against smooth surfaces 19 px wide [mm]", number(sensor.error_mm, 3)) +
+         row("steps of depth [mm]", number(sensor.step_mm, 3)) +
+         row("jumps are smeared over [px]", number(sensor.jump_px, 2)) +
+         row("lost pixels at a jump", number(sensor.hole_px, 2)) +
+         row("lost pixels in all [%]", number(100.0 * sensor.lost, 2)) + "</table></section>\n";
+}
+
 std::string figure(const DumpEntry& entry, std::size_t index) {
   const std::string file = escaped(entry.file);
   return "<section id=\"" + anchor(index) + "\"><h2>" + std::to_string(index + 1) + ". " +
@@ -117,13 +131,15 @@ std::string figure(const DumpEntry& entry, std::size_t index) {
 std::string dumpPage(const std::string& title,
                      const std::vector<DumpEntry>& entries,
                      const StageTimes& times,
-                     const std::vector<OverlayPose>& poses) {
+                     const std::vector<OverlayPose>& poses,
+                     const std::optional<SensorFacts>& sensor) {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>" +
       escaped(title) + "</title>\n<style>" + kStyle + "</style></head><body>\n<h1>" +
       escaped(title) + "</h1>\n";
   html += contents(entries) + poseTable(poses) + timeTable(times);
+  if (sensor) html += sensorTable(*sensor);
   for (std::size_t i = 0; i < entries.size(); ++i) html += figure(entries[i], i);
   return html + "</body></html>\n";
 }

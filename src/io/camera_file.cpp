@@ -89,6 +89,10 @@ Camera cameraFromJson(const json& object, const std::string& where) {
       throw Error(where + ": field \"depth_scale\" must be positive");
     }
   }
+  if (object.contains("error_mm")) {
+    camera.error_mm = jsonNumber(object, "error_mm", where);
+    if (!(camera.error_mm > 0.0)) throw Error(where + ": field \"error_mm\" must be positive");
+  }
   bool orthographic = false;
   if (const auto found = object.find("orthographic"); found != object.end()) {
     if (!found->is_boolean()) throw Error(where + ": field \"orthographic\" must be true or false");

@@ -6,6 +6,7 @@
 // Scan:    {"orthographic": true, "pixel_size": 0.5, "depth_scale": 1.0, "width": 640, "height":
 // 480}
 //          with "cam_K" or "cx" and "cy" where the centre is not that of the image
+//          Both may state the standard deviation of a depth, "error_mm"; else it is measured.
 // Bin:     {"cam_R_bin2c": [9 numbers, row by row], "cam_t_bin2c": [3], "inner_size": [x, y,
 // height]}
 #pragma once

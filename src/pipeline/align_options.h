@@ -15,6 +15,15 @@ struct CoarseRound {
   double judged;           ///< what is explained is judged with that share of the tolerance
 };
 
+/// Rounds of rendering and alignment of what is visible.
+struct FineRounds {
+  int rounds;          ///< at most
+  int points;          ///< of each surface
+  double first_reach;  ///< of the first round [tolerances]
+  double last_reach;   ///< of the last iteration of each round [tolerances]
+  double rim_reach;    ///< see IcpOptions [diameters]
+};
+
 struct AlignOptions {
   // A few steps with few points tell which of many hypotheses are worth more.
   CoarseRound all{4, 1, 0.20, 6.4, 0.12, 6, 1.0};
@@ -28,11 +37,11 @@ struct AlignOptions {
   double first_reach = 6.0;   ///< of the first such round [tolerances]
   double later_reach = 1.5;   ///< of later ones [tolerances]
   double nearly_right = 4.0;  ///< with no more reach partners are looked for nearby [tolerances]
-  double hopeless = -2.0;     ///< no long alignment makes such a pose right [log odds]
-  int rest_points = 900;      ///< of a surface whose pose is to rest
-  int rest_rounds = 8;        ///< for that, at most
-  int tie_rounds = 16;        ///< the same for poses that the image hardly tells apart
-  double worse = 3.0;  ///< what an alignment makes worse than that stays as it was [log odds]
+  double hopeless = -1.5;     ///< no long alignment makes such a pose right [log odds]
+  FineRounds rest{8, 900, 3.0, 1.0, 0.05};  ///< until a pose rests
+  FineRounds tie{16, 900, 1.5, 0.5, 0.08};  ///< for poses that the image hardly tells apart
+  double tie_still = 1e-5;  ///< such a pose rests when it moves by less in a round [diameters]
+  double worse = 3.0;       ///< what an alignment makes worse than that stays as it was [log odds]
   int settle_iterations = 4;  ///< with every pixel
   int settle_rounds = 2;      ///< of rendering
   int settle_px = 400;        ///< a side of a surface: of more, every second pixel is enough

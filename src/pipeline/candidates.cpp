@@ -120,6 +120,7 @@ void setEvidence(Candidate& candidate, const CheckResult& check, double mean_vis
 CheckOptions checkOptionsFor(const ReferenceObject& object, double noise_mm) {
   CheckOptions options;
   options.tolerance_mm = toleranceFor(object, noise_mm);
+  options.error_mm = noise_mm;
   return options;
 }
 

@@ -10,11 +10,11 @@ struct ChoiceOptions {
   double shared = 0.25;  ///< share of its pixels that other chosen poses may explain, too
   double faint = 0.01;   ///< less sure poses are nobody's rivals [confidence]
   double listed = 0.02;  ///< less sure poses cannot be chosen [confidence]
-  double turned = 0.05;  ///< from here on turned copies of a pose are tried [confidence]
+  double turned = 0.2;   ///< from here on turned copies of a pose are tried [confidence]
   double turned_again = 0.25;  ///< and from here on also where that was done for a surer rival
   double found = 0.5;      ///< from here on a part counts as found, and hides others [confidence]
   double sure = 0.75;      ///< from here on its pixels are not searched again [confidence]
-  double settled = 0.1;    ///< from here on chosen poses are brought to rest [confidence]
+  double settled = 0.3;    ///< from here on chosen poses are brought to rest [confidence]
   double tie = 3.0;        ///< rivals no farther apart are aligned more closely [log odds]
   double close = 2.0;      ///< model and data this near are as near as they can be [sigmas]
   double at_rest = 0.005;  ///< what aligned poses are off, and more [diameters]

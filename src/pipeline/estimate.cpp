@@ -117,7 +117,7 @@ class Estimator {
 
   /// Aligns and checks turned copies of poses on all of the foreground; none that is known already.
   std::vector<Candidate> alignTurned(std::vector<Candidate> copies, const Selection& known) {
-    constexpr int kVerified = 3;  // of the copies of a pose
+    constexpr int kVerified = 2;  // of the copies of a pose
     if (copies.empty()) return copies;
     const ScopedTimer timer(result_.times, "turned copies");
     const RefineScene scene = wholeScene();
@@ -335,9 +335,10 @@ Estimate estimatePoses(const DepthImage& measured,
     const ScopedTimer timer(result.times, "foreground");
     scene = stages.foreground(measured, foregroundTaskFor(database, bin));
     result.sensor = host::sensorFacts(measured, scene->on_host.noise_mm);
+    if (measured.camera.error_mm > 0.0) result.sensor.error_mm = measured.camera.error_mm;
   }
   const Foreground& on_host = scene->on_host;
-  result.noise_mm = result.sensor.noise_mm;
+  result.noise_mm = result.sensor.error_mm;
   result.background = on_host.background;
   if (trace != nullptr) trace->foreground = on_host.mask;
   Estimator estimator(*scene, bin, database, options, stages, result);

@@ -91,7 +91,7 @@ struct Estimate {
   std::vector<PoseEstimate> poses;  ///< best first; empty is a valid answer
   StageTimes times;
   SensorFacts sensor;     ///< what the image tells of it
-  double noise_mm = 0.0;  ///< sensor.noise_mm: what tolerances go by [mm]
+  double noise_mm = 0.0;  ///< sensor.error_mm: what tolerances go by [mm]
   std::vector<BackgroundPlane> background;
   std::vector<std::string> warnings;  ///< one line each
 };

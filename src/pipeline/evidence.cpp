@@ -43,7 +43,7 @@ EvidenceTerms evidenceTerms(const CheckResult& check, const EvidenceContext& con
           buriedTerm(check),
           std::min(check.relief, kEnoughRelief),
           std::max(check.relief - kEnoughRelief, 0.0),
-          std::max(std::min(check.whole_relief, kEnoughRelief) - std::max(check.relief, 0.0), 0.0),
+          std::max(check.whole_relief - std::max(check.relief, 0.0), 0.0),
           ends,
           std::log(visible + kLittleVisible),
           context.outside};
@@ -55,7 +55,7 @@ double buriedTerm(const CheckResult& check) {
 
 const EvidenceTerms& evidenceWeights() {
   static constexpr EvidenceTerms kWeights{
-      -8.658, -2.278, -3.933, 1.734, 0.310, -2.683, 2.862, 0.946, -81.529};
+      -10.973, -2.754, -3.751, 2.799, 0.052, -1.319, 3.087, 0.551, -177.893};
   return kWeights;
 }
 

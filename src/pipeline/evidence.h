@@ -21,7 +21,7 @@ enum class EvidenceTerm : std::size_t {
   kBuried,        ///< what lies just behind nearer data, as a share of that and of what agrees
   kRelief,        ///< relief up to kEnoughRelief
   kMoreRelief,    ///< relief beyond that
-  kUnseenRelief,  ///< relief up to kEnoughRelief that is not seen
+  kUnseenRelief,  ///< relief that this sensor would show of the whole part and that is not seen
   kEnds,          ///< share of the outline that was seen at which the data ends, too
   kVisible,  ///< log of the surface that agrees, as a share of what the object shows on average
   kOutside,  ///< share of the surface that lies where no part can be (enclosure.h)

@@ -153,21 +153,13 @@ std::vector<Candidate> refineTurned(const std::vector<Candidate>& copies,
 
 namespace {
 
-struct FineRounds {
-  int rounds;               ///< at most
-  int points;               ///< of each surface
-  double first_reach;       ///< of the first round [tolerances]
-  double still;             ///< see FineEffort
-  double last_reach = 1.0;  ///< of the last iteration of each round [tolerances]
-  double rim_reach = 0.05;  ///< share of the diameter
-};
-
 /// Aligns what is visible of the candidates that move, and gives those that moved still.
 std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
                                        const std::vector<std::size_t>& moving,
                                        const ReferenceDatabase& database,
                                        const RefineScene& scene,
                                        const FineRounds& fine,
+                                       double still,
                                        double reach_tolerances) {
   // Faces alone leave a plate free to slide in its plane; where rims hold it, a pull towards the
   // nearest points would only slow it down.
@@ -190,7 +182,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     Candidate& candidate = candidates[moving[i]];
     const Pose before = std::exchange(candidate.pose, aligned[i].camera_from_object);
     const double moved = PoseDistance(objectOf(candidate, database))(before, candidate.pose);
-    if (!(moved < fine.still)) still_moving.push_back(moving[i]);
+    if (!(moved < still)) still_moving.push_back(moving[i]);
   }
   return still_moving;
 }
@@ -211,16 +203,18 @@ void checkAll(std::vector<Candidate>& candidates,
   setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setEvidence);
 }
 
-/// Aligns all until they rest, then checks them.
+/// Aligns all until they rest, moving by less than `still` [diameters] in a round, then checks
+/// them.
 void refineAll(std::vector<Candidate>& candidates,
                const ReferenceDatabase& database,
                const RefineScene& scene,
-               const FineRounds& fine) {
+               const FineRounds& fine,
+               double still) {
   std::vector<std::size_t> moving(candidates.size());
   std::iota(moving.begin(), moving.end(), std::size_t{0});
   for (int round = 0; round < fine.rounds && !moving.empty(); ++round) {
     const double reach = round == 0 ? fine.first_reach : scene.align.later_reach;
-    moving = alignSurfaces(candidates, moving, database, scene, fine, reach);
+    moving = alignSurfaces(candidates, moving, database, scene, fine, still, reach);
   }
   checkAll(candidates, database, scene);
 }
@@ -250,14 +244,16 @@ void refineFinely(std::vector<Candidate>& candidates,
   refineAll(candidates,
             database,
             scene,
-            {effort.rounds, effort.points, scene.align.first_reach, effort.still});
+            {effort.rounds,
+             effort.points,
+             scene.align.first_reach,
+             scene.align.rest.last_reach,
+             scene.align.rest.rim_reach},
+            effort.still);
   std::erase_if(candidates, [&](const Candidate& one) { return one.rank < scene.align.hopeless; });
   candidates = bestDistinct(std::move(candidates), database, effort.finalists);
   unlessWorse(candidates, scene.align.worse, [&] {
-    refineAll(candidates,
-              database,
-              scene,
-              {scene.align.rest_rounds, scene.align.rest_points, 3.0, effort.still});
+    refineAll(candidates, database, scene, scene.align.rest, effort.still);
   });
 }
 
@@ -265,10 +261,7 @@ void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {
   unlessWorse(candidates, scene.align.worse, [&] {
-    refineAll(candidates,
-              database,
-              scene,
-              {scene.align.tie_rounds, scene.align.rest_points, 1.5, 1e-5, 0.5, 0.08});
+    refineAll(candidates, database, scene, scene.align.tie, scene.align.tie_still);
   });
 }
 

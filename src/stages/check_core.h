@@ -11,6 +11,7 @@ namespace rangepose {
 
 struct CheckOptions {
   double tolerance_mm = 2.0;     ///< surfaces this close are the same [mm]
+  double error_mm = 0.1;         ///< standard deviation of what the sensor is off [mm]
   double max_tilt_rad = 0.6;     ///< normals of the same surface differ by at most this [rad]
   double contradicted = 2.0;     ///< weight of surface in front of the data in the score
   double missing = 0.5;          ///< weight of surface where nothing was measured
@@ -36,7 +37,8 @@ struct CheckResult {
                                  ///< beside an outline or a jump, where sensors smear depth
   double relief = 0.0;  ///< reliefOf() what agrees: how much likelier it is with the part there
                         ///< than with a smooth surface, logarithm for a pixel, -1..3
-  double whole_relief = 0.0;   ///< relief that there would be if all of the surface were seen, 0..3
+  double whole_relief = 0.0;  ///< relief that there would be if all of the surface were seen by
+                              ///< this sensor, 0..3
   double inner_px = 0.0;       ///< agreeing pixels that are not beside an outline or a jump [px]
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]

@@ -170,6 +170,9 @@ RP_HD double outlineOf(const SurfaceTally& tally) {
 /// Below this nothing is measured [tolerances].
 inline constexpr double kLeastDeviation = 0.01;
 
+/// A right pose is off the data by more than the sensor's error: by its own, and the part's.
+inline constexpr double kRightPoseErrors = 2.0;
+
 /// Of a rendered surface.
 RP_HD CheckResult surfaceVerdict(const SurfaceTally& tally, const CheckOptions& options) {
   const PixelTally<double>& pixels = tally.pixels;
@@ -181,7 +184,7 @@ RP_HD CheckResult surfaceVerdict(const SurfaceTally& tally, const CheckOptions& 
   result.seen_through = pixels.pixels > 0.0 ? tally.seen_through / pixels.pixels : 0.0;
   const double least_mm = kLeastDeviation * options.tolerance_mm;
   result.relief = reliefOf(tally.relief, least_mm);
-  result.whole_relief = reliefOfWhole(tally.whole, ownDeviation(tally.relief), least_mm);
+  result.whole_relief = reliefOfWhole(tally.whole, kRightPoseErrors * options.error_mm, least_mm);
   result.inner_px = tally.inner;
   return result;
 }

@@ -6,7 +6,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/parallel.h"
 #include "stages/noise_core.h"
+#include "stages/relief_core.h"
 
 namespace rangepose::host {
 namespace {
@@ -110,6 +112,52 @@ bool jumpAt(const Line& line, int at, double least_mm, Jump& jump) {
   return true;
 }
 
+constexpr int kHalf = 9;  // of a window; its pixels are 3 apart
+constexpr int kPixelStep = 3;
+constexpr int kMiddles = 40;  // windows along the image's width, at most
+
+/// What the best quadric leaves of the window [mm]; -1 where too little of it was measured.
+double deviationAround(const Image<float>& depth_mm, int u, int v) {
+  constexpr double kFewest = 36.0;  // of 49 pixels
+  const float middle_mm = depth_mm.at(u, v);
+  if (middle_mm == 0.0f) return -1.0;
+  ReliefSums sums;
+  for (int y = -kHalf; y <= kHalf; y += kPixelStep) {
+    const float* row = depth_mm.row(v + y) + u;
+    for (int x = -kHalf; x <= kHalf; x += kPixelStep) {
+      if (row[x] == 0.0f) continue;
+      sums.add(static_cast<double>(x) / kHalf,
+               static_cast<double>(y) / kHalf,
+               static_cast<double>(row[x] - middle_mm),
+               0.0,
+               1.0);
+    }
+  }
+  if (sums.count < kFewest) return -1.0;
+  return std::sqrt(quadricResidual(sums) / (sums.count - ReliefSums::kTerms));
+}
+
+/// Of smooth windows: of all of them the two fifths that a quadric fits best are taken for smooth.
+double errorOfWindows(const Image<float>& depth_mm) {
+  constexpr std::size_t kFewest = 20;
+  const int apart = std::max(16, depth_mm.width() / kMiddles);
+  const int across = (depth_mm.width() - 2 * kHalf - 1) / apart + 1;
+  const int down = (depth_mm.height() - 2 * kHalf - 1) / apart + 1;
+  if (depth_mm.width() <= 2 * kHalf || depth_mm.height() <= 2 * kHalf) return 0.0;
+  std::vector<double> deviations(static_cast<std::size_t>(across) * static_cast<std::size_t>(down));
+  parallelForEach(static_cast<std::size_t>(down), 4, [&](std::size_t y) {
+    for (int x = 0; x < across; ++x) {
+      deviations[y * static_cast<std::size_t>(across) + static_cast<std::size_t>(x)] =
+          deviationAround(depth_mm, kHalf + x * apart, kHalf + static_cast<int>(y) * apart);
+    }
+  });
+  std::erase_if(deviations, [](double one) { return one < 0.0; });
+  if (deviations.size() < kFewest) return 0.0;
+  const auto at = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() * 2 / 5);
+  std::nth_element(deviations.begin(), at, deviations.end());
+  return *at;
+}
+
 }  // namespace
 
 SensorFacts sensorFacts(const DepthImage& image, double between_neighbours_mm) {
@@ -119,6 +167,7 @@ SensorFacts sensorFacts(const DepthImage& image, double between_neighbours_mm) {
   facts.step_mm = depthStep(image.depth_mm);
   // Errors of rounding are even over a step.
   facts.noise_mm = std::hypot(between_neighbours_mm, facts.step_mm / std::sqrt(12.0));
+  facts.error_mm = std::max(facts.noise_mm, errorOfWindows(image.depth_mm));
   const double least_mm = std::max(kLeastJumpMm, kLeastJumpNoise * facts.noise_mm);
   PixelCounts smeared;
   PixelCounts holes;

@@ -74,9 +74,11 @@ class DumpTest : public ::testing::Test {
 TEST_F(DumpTest, PageListsEveryPictureInOrderAndEachOneDecodes) {
   StageDump dump(folder_ / "deep" / "er", "one frame");
   addAll(dump);
+  dump.addSensor({.noise_mm = 0.125, .error_mm = 0.755});
   dump.finish({{"prepare", 2.5}, {"search", 31.25}}, {testing::posed(mesh_, pose_)});
 
   const std::string page = textOf(dump.directory() / "index.html");
+  EXPECT_THAT(page, HasSubstr("0.755")) << "what tolerances go by";
   ASSERT_EQ(dump.entries().size(), 14U);
   std::size_t last = 0;
   for (const DumpEntry& entry : dump.entries()) {

@@ -44,6 +44,12 @@ TEST(CameraFile, SizeAndScaleMayBeMissing) {
   EXPECT_EQ(camera.depth_scale, 1.0);
 }
 
+TEST(CameraFile, TheErrorOfDepthIsMeasuredUnlessTheFileStatesIt) {
+  const std::string matrix = R"({"cam_K": [500, 0, 9, 0, 500, 8, 0, 0, 1])";
+  EXPECT_EQ(parseCamera(matrix + "}", "c").error_mm, 0.0);
+  EXPECT_EQ(parseCamera(matrix + R"(, "error_mm": 1.25})", "c").error_mm, 1.25);
+}
+
 TEST(CameraFile, ReadsTheSeparateFieldsOfBop) {
   const Camera camera = parseCamera(
       R"({"cx": 325.26, "cy": 242.04, "depth_scale": 1.0, "fx": 572.4, "fy": 573.5,
@@ -128,6 +134,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadCamera{R"({"cam_K": [1, 0, 0, 0, 1, 0, 9, 9, 1]})", "cam_K", "last row"},
         BadCamera{R"({"fx": 1, "fy": 1, "cx": 1})", "cy", "missing"},
         BadCamera{R"({"cam_K": [1,0,0,0,1,0,0,0,1], "depth_scale": 0})", "depth_scale", "positive"},
+        BadCamera{R"({"cam_K": [1,0,0,0,1,0,0,0,1], "error_mm": 0})", "error_mm", "positive"},
         BadCamera{R"({"cam_K": [1,0,0,0,1,0,0,0,1], "depth_scale": "1"})", "depth_scale", "number"},
         BadCamera{R"({"cam_K": [1,0,0,0,1,0,0,0,1], "width": 640})", "height", "missing"},
         BadCamera{R"({"cam_K": [1,0,0,0,1,0,0,0,1], "width": 6.5, "height": 4})", "width", "whole"},

@@ -124,6 +124,13 @@ TEST(EstimateTest, BadCameraIsAnError) {
   EXPECT_THAT(errorOf(image, brackets(), {}), testing::Not(HasSubstr("no error")));
 }
 
+TEST(EstimateTest, TolerancesGoByTheErrorThatTheCameraStates) {
+  DepthImage image = tableImage();
+  EXPECT_EQ(estimated(image).noise_mm, estimated(image).sensor.error_mm);
+  image.camera.error_mm = 1.25;
+  EXPECT_EQ(estimated(image).noise_mm, 1.25) << "a calibrated sensor would be judged by a guess";
+}
+
 TEST(EstimateTest, EmptyDatabaseIsAnError) {
   EXPECT_THAT(errorOf(tableImage(), {}, {}), HasSubstr("no object"));
 }

@@ -74,6 +74,35 @@ TEST(SensorFactsTest, NoiseWithoutStepsStaysWhatItIs) {
   EXPECT_NEAR(host::sensorFacts(image, 0.3).noise_mm, 0.3, 0.01);
 }
 
+/// A cosine is an error that near neighbours share; its standard deviation is that of its size by
+/// the root of two.
+TEST(SensorFactsTest, TheErrorHoldsWhatNeighboursShare) {
+  DepthImage image{test::pinholeCamera(640, 480, 600.0), Image<float>(640, 480, 0.0f)};
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const float wave =
+          std::cos(0.7f * static_cast<float>(u)) * std::cos(0.7f * static_cast<float>(v));
+      image.depth_mm.at(u, v) = 500.0f + 0.1f * static_cast<float>(u) + 2.0f * wave;
+    }
+  }
+  const SensorFacts facts = host::sensorFacts(image, 0.1);
+  EXPECT_NEAR(facts.error_mm, 1.0, 0.15) << "right poses would seem to be off";
+  EXPECT_LE(facts.noise_mm, 0.2);
+}
+
+TEST(SensorFactsTest, RoundPartsAndJumpsAreNoError) {
+  DepthImage image{test::pinholeCamera(640, 480, 600.0), Image<float>(640, 480, 600.0f)};
+  for (int v = 0; v < 480; ++v) {
+    for (int u = 0; u < 640; ++u) {
+      const float across = static_cast<float>(u % 80 - 40) / 40.0f;
+      if (v % 160 < 120)
+        image.depth_mm.at(u, v) = 600.0f - 40.0f * std::sqrt(1.0f - 0.9f * across * across);
+    }
+  }
+  EXPECT_LE(host::sensorFacts(image, 0.0).error_mm, 0.1)
+      << "tolerances would be wider than the sensor is bad";
+}
+
 TEST(SensorFactsTest, AnEmptyImageTellsNothing) {
   const DepthImage image{test::pinholeCamera(64, 48, 60.0), Image<float>(64, 48, 0.0f)};
   const SensorFacts facts = host::sensorFacts(image, 0.0);

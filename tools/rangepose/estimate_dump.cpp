@@ -42,6 +42,7 @@ void finishDump(debug::StageDump& dump,
     dump.addOverlay("rough", depth, overlayPoses(estimate, database, true));
     dump.addOverlay("fine", depth, poses);
   }
+  dump.addSensor(estimate.sensor);
   dump.finish(estimate.times, poses);
 }
 

@@ -65,6 +65,7 @@ Json evidenceJson(const EvidenceTerms& terms) {
 
 Json sensorJson(const SensorFacts& sensor) {
   return {{"noise_mm", finite(sensor.noise_mm, "noise_mm")},
+          {"error_mm", finite(sensor.error_mm, "error_mm")},
           {"step_mm", finite(sensor.step_mm, "step_mm")},
           {"jump_px", finite(sensor.jump_px, "jump_px")},
           {"hole_px", finite(sensor.hole_px, "hole_px")},
@@ -73,10 +74,12 @@ Json sensorJson(const SensorFacts& sensor) {
 
 std::string sensorLine(const SensorFacts& sensor) {
   return fmt::format(
-      "sensor: noise {:.3f} mm, steps of {:.3g} mm, jumps smeared over {:.1f} px, {:.1f} px lost "
+      "sensor: noise {:.3f} mm, error {:.3f} mm, steps of {:.3g} mm, jumps smeared over {:.1f} px, "
+      "{:.1f} px lost "
       "at "
       "a jump, {:.1f} % lost in all\n",
       sensor.noise_mm,
+      sensor.error_mm,
       sensor.step_mm,
       sensor.jump_px,
       sensor.hole_px,
