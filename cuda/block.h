@@ -187,3 +187,7 @@ class HostBlock {
 #endif
 
 }  // namespace rangepose::cuda
+
+#ifdef RP_CUDA_EMULATED
+#include "cuda/emulated/device_block.h"
+#endif

@@ -11,6 +11,7 @@
 
 #include "core/error.h"
 #include "cuda/check.h"
+#include "cuda/stream.h"
 
 namespace rangepose::cuda {
 
@@ -65,6 +66,7 @@ class Buffer {
   /// The first `count` values; waits for them.
   std::vector<T> download(std::size_t count, cudaStream_t stream) const {
     std::vector<T> values(count);
+    const Landing landing(stream);
     download(values.data(), count, stream);
     RP_CUDA(cudaStreamSynchronize(stream));
     return values;

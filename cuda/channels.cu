@@ -5,6 +5,7 @@
 #include "cuda/check.h"
 #include "cuda/edt_body.h"
 #include "cuda/image_body.h"
+#include "cuda/launch.h"
 #include "cuda/pixels.h"
 
 namespace rangepose::cuda {
@@ -73,14 +74,14 @@ void checkSize(const ImageView& a, const ImageView& b) {
 void median(ImageView range, ImageView result, cudaStream_t stream) {
   checkSize(range, result);
   const PixelGrid grid = pixelGrid(range.width, range.height);
-  medianKernel<<<grid.blocks, grid.threads, 0, stream>>>(range, result);
+  launch(medianKernel, grid.blocks, grid.threads, stream, range, result);
   RP_LAUNCHED("median");
 }
 
 void edges(ImageView range_px, float threshold_px, ImageView result, cudaStream_t stream) {
   checkSize(range_px, result);
   const PixelGrid grid = pixelGrid(range_px.width, range_px.height);
-  edgesKernel<<<grid.blocks, grid.threads, 0, stream>>>(range_px, threshold_px, result);
+  launch(edgesKernel, grid.blocks, grid.threads, stream, range_px, threshold_px, result);
   RP_LAUNCHED("edges");
 }
 
@@ -95,10 +96,10 @@ ImageView distanceTexels(ImageView range_px,
   const PixelGrid grid = pixelGrid(range_px.width, range_px.height);
   ImageView current = scratch.even;
   ImageView next = scratch.odd;
-  edtInitKernel<<<grid.blocks, grid.threads, 0, stream>>>(range_px, edges, passes, current);
+  launch(edtInitKernel, grid.blocks, grid.threads, stream, range_px, edges, passes, current);
   RP_LAUNCHED("start of the distance transform");
   for (int pass = 0; pass < passes; ++pass) {
-    edtStepKernel<<<grid.blocks, grid.threads, 0, stream>>>(current, next);
+    launch(edtStepKernel, grid.blocks, grid.threads, stream, current, next);
     RP_LAUNCHED("pass of the distance transform");
     std::swap(current, next);
   }
@@ -119,13 +120,13 @@ void distance(ImageView range_px,
       return static_cast<unsigned>((pixels + kEdtTile - 1) / kEdtTile);
     };
     const dim3 blocks(tiles(range_px.width), tiles(range_px.height));
-    edtTileKernel<<<blocks, kEdtThreads, 0, stream>>>(range_px, edges, passes, result);
+    launch(edtTileKernel, blocks, kEdtThreads, stream, range_px, edges, passes, result);
     RP_LAUNCHED("distance transform");
     return;
   }
   const ImageView texels = distanceTexels(range_px, edges, passes, scratch, stream);
   const PixelGrid grid = pixelGrid(range_px.width, range_px.height);
-  edtRootKernel<<<grid.blocks, grid.threads, 0, stream>>>(texels, result);
+  launch(edtRootKernel, grid.blocks, grid.threads, stream, texels, result);
   RP_LAUNCHED("end of the distance transform");
 }
 

@@ -7,6 +7,13 @@
 
 namespace rangepose::cuda {
 
+/// Whether the device is one that the host emulates (cuda/emulated/README.md).
+#ifdef RP_CUDA_EMULATED
+inline constexpr bool kEmulated = true;
+#else
+inline constexpr bool kEmulated = false;
+#endif
+
 /// Kernels launched by this process so far.
 std::int64_t launches();
 

@@ -37,7 +37,8 @@ struct Status {
   std::string toolkit;  ///< that it was built with, e.g. "13.0"; empty: built without CUDA
   std::string driver;   ///< newest CUDA that the driver knows, e.g. "13.0"; empty: no driver
   std::vector<DeviceInfo> devices;
-  std::string missing;  ///< one line that names what the path lacks; empty: it works
+  bool emulated = false;  ///< the device is one that the host emulates: for tests, never chosen
+  std::string missing;    ///< one line that names what the path lacks; empty: it works
 };
 Status status();
 

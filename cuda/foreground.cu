@@ -2,6 +2,7 @@
 #include "cuda/extent_body.h"
 #include "cuda/foreground.h"
 #include "cuda/foreground_body.h"
+#include "cuda/launch.h"
 #include "cuda/pixels.h"
 #include "cuda/storage.h"
 
@@ -177,34 +178,68 @@ __global__ __launch_bounds__(kPartThreads) void extentKernel(const float* depth_
 
 void depthNoise(const ForegroundMemory& memory, const Camera& camera, cudaStream_t stream) {
   for (int digit = 0; digit < kNoiseDigits; ++digit) {
-    countDigitsKernel<<<kImageParts, kPartThreads, 0, stream>>>(
-        memory.measured, camera.width, camera.height, digit, memory.state, memory.bins);
+    launch(countDigitsKernel,
+           kImageParts,
+           kPartThreads,
+           stream,
+           memory.measured,
+           camera.width,
+           camera.height,
+           digit,
+           memory.state,
+           memory.bins);
     RP_LAUNCHED("digits of second differences");
-    pickDigitKernel<<<1, kPartThreads, 0, stream>>>(digit, memory.state, memory.bins);
+    launch(pickDigitKernel, 1, kPartThreads, stream, digit, memory.state, memory.bins);
     RP_LAUNCHED("digit of the middle difference");
   }
-  sumLowerKernel<<<kImageParts, kPartThreads, 0, stream>>>(
-      memory.measured, camera.width, camera.height, memory.state, memory.parts);
+  launch(sumLowerKernel,
+         kImageParts,
+         kPartThreads,
+         stream,
+         memory.measured,
+         camera.width,
+         camera.height,
+         memory.state,
+         memory.parts);
   RP_LAUNCHED("lower half of second differences");
-  noiseKernel<<<1, 1, 0, stream>>>(memory.state, memory.parts);
+  launch(noiseKernel, 1, 1, stream, memory.state, memory.parts);
   RP_LAUNCHED("depth noise");
 }
 
 void fillDropouts(const ForegroundMemory& memory, const Camera& camera, cudaStream_t stream) {
   const PixelGrid grid = pixelGrid(camera.width, camera.height);
-  fillKernel<<<grid.blocks, grid.threads, 0, stream>>>(
-      memory.measured, camera, memory.depth, memory.state);
+  launch(fillKernel,
+         grid.blocks,
+         grid.threads,
+         stream,
+         memory.measured,
+         camera,
+         memory.depth,
+         memory.state);
   RP_LAUNCHED("lost pixels");
-  unlessManyKernel<<<grid.blocks, grid.threads, 0, stream>>>(
-      memory.measured, camera.width, camera.height, memory.depth, memory.state);
+  launch(unlessManyKernel,
+         grid.blocks,
+         grid.threads,
+         stream,
+         memory.measured,
+         camera.width,
+         camera.height,
+         memory.depth,
+         memory.state);
   RP_LAUNCHED("lost pixels where they are few");
 }
 
 void takeSamples(const ForegroundMemory& memory,
                  const ForegroundRules& rules,
                  cudaStream_t stream) {
-  takeSamplesKernel<<<1, kRoundThreads, 0, stream>>>(
-      memory.depth, rules, memory.samples[0], memory.state);
+  launch(takeSamplesKernel,
+         1,
+         kRoundThreads,
+         stream,
+         memory.depth,
+         rules,
+         memory.samples[0],
+         memory.state);
   RP_LAUNCHED("samples for planes");
 }
 
@@ -217,9 +252,10 @@ void findPlanes(const ForegroundMemory& memory,
   for (int round = first_round; round < first_round + rounds; ++round) {
     const std::uint64_t* draws =
         memory.draws + static_cast<std::size_t>(round) * static_cast<std::size_t>(kDrawsOfRound);
-    tryPlaneKernel<<<kPlaneTrials, kTrialThreads, 0, stream>>>(rules, samples, draws, memory.state);
+    launch(
+        tryPlaneKernel, kPlaneTrials, kTrialThreads, stream, rules, samples, draws, memory.state);
     RP_LAUNCHED("trial planes");
-    settlePlaneKernel<<<1, kRoundThreads, 0, stream>>>(rules, samples, draws, memory.state);
+    launch(settlePlaneKernel, 1, kRoundThreads, stream, rules, samples, draws, memory.state);
     RP_LAUNCHED("plane of a round");
   }
 }
@@ -228,8 +264,15 @@ void maskForeground(const ForegroundMemory& memory,
                     const ForegroundRules& rules,
                     cudaStream_t stream) {
   const PixelGrid grid = pixelGrid(rules.camera.width, rules.camera.height);
-  maskKernel<<<grid.blocks, grid.threads, 0, stream>>>(
-      memory.depth, rules, memory.state, memory.foreground, memory.keep);
+  launch(maskKernel,
+         grid.blocks,
+         grid.threads,
+         stream,
+         memory.depth,
+         rules,
+         memory.state,
+         memory.foreground,
+         memory.keep);
   RP_LAUNCHED("mask of the foreground");
 }
 
@@ -238,7 +281,7 @@ void extentOf(const float* foreground_mm,
               unsigned long long* keys,
               cudaStream_t stream) {
   RP_CUDA(cudaMemsetAsync(keys, 0xff, 4 * sizeof *keys, stream));
-  extentKernel<<<kImageParts, kPartThreads, 0, stream>>>(foreground_mm, camera, keys);
+  launch(extentKernel, kImageParts, kPartThreads, stream, foreground_mm, camera, keys);
   RP_LAUNCHED("extent of the foreground");
 }
 

@@ -59,6 +59,7 @@ std::unique_ptr<ResidentForeground> ForegroundFinder::find(const DepthImage& mea
   Foreground& on_host = found->on_host;
   on_host.mask = Image<std::uint8_t>(camera.width, camera.height);
   ForegroundState state;
+  const Landing landing(stream);
   for (int round = 0; state.done == 0; round += rounds_at_once_) {
     drawFor(round + rounds_at_once_, stream);
     memory.draws = draws_.data();

@@ -50,11 +50,11 @@ std::unique_ptr<gles::Context> openSharing(Interop interop) {
       contextOptions(interop == Interop::kGl ? gles::Api::kDesktop : gles::Api::kGles);
   std::string reasons;
   for (const gles::DisplaySource& source : gles::displaySources(options.cuda_device)) {
-    if (source.software) continue;
+    if (source.software && !kEmulated) continue;
     std::string reason;
     try {
       auto context = std::make_unique<gles::Context>(source, options);
-      if (context->info().software) {
+      if (context->info().software && !kEmulated) {
         throw Unavailable("only software GL (" + context->info().renderer + ")");
       }
       requireSharing();
@@ -76,7 +76,7 @@ std::unique_ptr<gles::Context> openSharing(Interop interop) {
 std::unique_ptr<gles::Context> openDrawing(std::string& note) {
   try {
     auto context = std::make_unique<gles::Context>(contextOptions(gles::Api::kGles));
-    if (!context->info().software) return context;
+    if (!context->info().software || kEmulated) return context;
     note += "; GL is only in software (" + context->info().renderer + "), the host draws";
   } catch (const Error& error) {
     note += "; the host draws: " + std::string(error.what());

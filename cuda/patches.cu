@@ -1,5 +1,6 @@
 #include "cuda/channels.h"
 #include "cuda/check.h"
+#include "cuda/launch.h"
 #include "cuda/patches_body.h"
 #include "cuda/pixels.h"
 
@@ -42,11 +43,11 @@ __global__ void rootsKernel(int width, int height, std::int32_t* labels) {
 void patches(ImageView range_px, ImageView edges, std::int32_t* labels, cudaStream_t stream) {
   if (range_px.width == 0 || range_px.height == 0) return;
   const PixelGrid grid = pixelGrid(range_px.width, range_px.height);
-  firstLabelsKernel<<<grid.blocks, grid.threads, 0, stream>>>(range_px, edges, labels);
+  launch(firstLabelsKernel, grid.blocks, grid.threads, stream, range_px, edges, labels);
   RP_LAUNCHED("first labels");
-  joinKernel<<<grid.blocks, grid.threads, 0, stream>>>(range_px.width, range_px.height, labels);
+  launch(joinKernel, grid.blocks, grid.threads, stream, range_px.width, range_px.height, labels);
   RP_LAUNCHED("joined patches");
-  rootsKernel<<<grid.blocks, grid.threads, 0, stream>>>(range_px.width, range_px.height, labels);
+  launch(rootsKernel, grid.blocks, grid.threads, stream, range_px.width, range_px.height, labels);
   RP_LAUNCHED("roots of patches");
 }
 

@@ -1,4 +1,5 @@
 #include "cuda/check.h"
+#include "cuda/launch.h"
 #include "cuda/refine.h"
 #include "cuda/storage.h"
 
@@ -82,9 +83,9 @@ void align(const ResidentImage& scene,
   if (task_count == 0) return;
   const unsigned blocks = static_cast<unsigned>(task_count);
   if (most_points <= kFewThreads) {
-    alignKernel<kFewThreads><<<blocks, kFewThreads, 0, stream>>>(scene, tasks, points, results);
+    launch(alignKernel<kFewThreads>, blocks, kFewThreads, stream, scene, tasks, points, results);
   } else {
-    alignKernel<kManyThreads><<<blocks, kManyThreads, 0, stream>>>(scene, tasks, points, results);
+    launch(alignKernel<kManyThreads>, blocks, kManyThreads, stream, scene, tasks, points, results);
   }
   RP_LAUNCHED("alignment");
 }
@@ -96,8 +97,14 @@ void judgePoints(const ResidentImage& depth,
                  CheckResult* results,
                  cudaStream_t stream) {
   if (task_count == 0) return;
-  judgePointsKernel<<<static_cast<unsigned>(task_count), kFewThreads, 0, stream>>>(
-      depth, tasks, points, results);
+  launch(judgePointsKernel,
+         static_cast<unsigned>(task_count),
+         kFewThreads,
+         stream,
+         depth,
+         tasks,
+         points,
+         results);
   RP_LAUNCHED("verdict on points");
 }
 
@@ -107,8 +114,13 @@ void judgeSurfaces(const ResidentImage& depth,
                    CheckResult* results,
                    cudaStream_t stream) {
   if (task_count == 0) return;
-  judgeSurfacesKernel<<<static_cast<unsigned>(task_count), kSurfaceThreads, 0, stream>>>(
-      depth, tasks, results);
+  launch(judgeSurfacesKernel,
+         static_cast<unsigned>(task_count),
+         kSurfaceThreads,
+         stream,
+         depth,
+         tasks,
+         results);
   RP_LAUNCHED("verdict on surfaces");
 }
 

@@ -2,6 +2,7 @@
 #include "cuda/channels.h"
 #include "cuda/check.h"
 #include "cuda/image_body.h"
+#include "cuda/launch.h"
 #include "cuda/pixels.h"
 
 namespace rangepose::cuda {
@@ -47,12 +48,20 @@ void resample(const DepthPixels& depth,
   RP_CUDA(cudaMemsetAsync(scratch, 0xff, bytes, stream));
   if (!region.empty()) {
     const PixelGrid read = pixelGrid(region.width(), region.height());
-    splatKernel<<<read.blocks, read.threads, 0, stream>>>(
-        depth, setup, region, range_px.width, range_px.height, scratch);
+    launch(splatKernel,
+           read.blocks,
+           read.threads,
+           stream,
+           depth,
+           setup,
+           region,
+           range_px.width,
+           range_px.height,
+           scratch);
     RP_LAUNCHED("splats");
   }
   const PixelGrid grid = pixelGrid(range_px.width, range_px.height);
-  splatsDoneKernel<<<grid.blocks, grid.threads, 0, stream>>>(scratch, range_px);
+  launch(splatsDoneKernel, grid.blocks, grid.threads, stream, scratch, range_px);
   RP_LAUNCHED("range of splats");
 }
 

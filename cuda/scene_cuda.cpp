@@ -39,6 +39,7 @@ Image<std::int32_t> labelled(Workspace& workspace,
   workspace.labels.reserve(pixelsOf(range));
   patches(frame.view(range), frame.view(edge), workspace.labels.data(), stream);
   Image<std::int32_t> labels(range.width(), range.height());
+  const Landing landing(stream);
   workspace.labels.download(labels.data(), labels.size(), stream);
   workspace.synchronize();
   return labels;
@@ -46,6 +47,7 @@ Image<std::int32_t> labelled(Workspace& workspace,
 
 Image<float> fetched(Workspace& workspace, const Frame& frame, const DeviceImage& image) {
   Image<float> result(image.width(), image.height());
+  const Landing landing(workspace.begin());
   frame.download(image, result.data());
   workspace.synchronize();
   return result;
@@ -119,6 +121,7 @@ SceneChannels CudaScene::download() const {
   for (Image<float>* image : {&channels.range_px, &channels.edges, &channels.distance_px}) {
     *image = Image<float>(camera_.width, camera_.height);
   }
+  const Landing landing(workspace_.begin());
   frame.download(*range_, channels.range_px.data());
   frame.download(*edges_, channels.edges.data());
   frame.download(*distance_, channels.distance_px.data());
@@ -265,6 +268,7 @@ Image<EdtTexel> distanceTexelsOf(Workspace& workspace,
                                         images.stream);
   const bool in_even = last.texture == frame.view(*images.even).texture;
   Image<EdtTexel> texels(range_px.width(), range_px.height());
+  const Landing landing(images.stream);
   frame.download(in_even ? *images.even : *images.odd, texels.data());
   workspace.synchronize();
   return texels;

@@ -11,6 +11,7 @@
 //   and about 18 instructions: 130 million of a warp, 0.15 ms at four a cycle and 1.7 GHz. The
 //   reductions add two fifths. While one thread steps the simplex its block waits; other blocks
 //   fill that gap or do not: what a measurement has to tell.
+#include "cuda/launch.h"
 #include "cuda/search.h"
 #include "cuda/search_body.h"
 
@@ -94,8 +95,16 @@ void launchSearch(const ResidentObject& object,
                   Hypothesis* answers,
                   cudaStream_t stream) {
   const dim3 grid(static_cast<unsigned>(setup.views), static_cast<unsigned>(window_count));
-  searchKernel<kSlots><<<grid, kThreads, 0, stream>>>(
-      setup, object.entries(), object.pixels(), windows, seed_range_px, answers);
+  launch(searchKernel<kSlots>,
+         grid,
+         kThreads,
+         stream,
+         setup,
+         object.entries(),
+         object.pixels(),
+         windows,
+         seed_range_px,
+         answers);
   RP_LAUNCHED("fused search");
 }
 
@@ -111,11 +120,11 @@ void search(const ResidentObject& object,
   RP_CHECK(setup.views == object.views(), "the setup belongs to another object");
   if (setup.views == 0 || window_count == 0) return;
   const int slots = searchSlots(object.mostPixels(setup.row_step));
-  const auto launch = slots == 3    ? launchSearch<3>
-                      : slots == 6  ? launchSearch<6>
-                      : slots == 12 ? launchSearch<12>
-                                    : launchSearch<0>;
-  launch(object, setup, windows, seed_range_px, window_count, answers, stream);
+  const auto launch_slots = slots == 3    ? launchSearch<3>
+                            : slots == 6  ? launchSearch<6>
+                            : slots == 12 ? launchSearch<12>
+                                          : launchSearch<0>;
+  launch_slots(object, setup, windows, seed_range_px, window_count, answers, stream);
 }
 
 void errorTerms(const ResidentObject& object,
@@ -126,8 +135,16 @@ void errorTerms(const ResidentObject& object,
                 cudaStream_t stream) {
   RP_CHECK(setup.views == object.views(), "the setup belongs to another object");
   if (setup.views == 0) return;
-  termsKernel<<<static_cast<unsigned>(setup.views), kThreads, 0, stream>>>(
-      setup, object.entries(), object.pixels(), window, translations_px, terms);
+  launch(termsKernel,
+         static_cast<unsigned>(setup.views),
+         kThreads,
+         stream,
+         setup,
+         object.entries(),
+         object.pixels(),
+         window,
+         translations_px,
+         terms);
   RP_LAUNCHED("error terms");
 }
 
@@ -140,7 +157,7 @@ void frameWindow(ImageView range_px,
   constexpr unsigned kColumns = 64;
   const unsigned stride = static_cast<unsigned>(frame.stride());
   const dim3 grid((stride + kColumns - 1) / kColumns, stride);
-  frameKernel<<<grid, kColumns, 0, stream>>>(range_px, distance_px, outside_distance, frame, into);
+  launch(frameKernel, grid, kColumns, stream, range_px, distance_px, outside_distance, frame, into);
   RP_LAUNCHED("frame of a window");
 }
 
@@ -151,8 +168,14 @@ void bestHypotheses(const Hypothesis* answers,
                     Hypothesis* best,
                     cudaStream_t stream) {
   if (window_count == 0) return;
-  bestKernel<<<static_cast<unsigned>(window_count), kRankThreads, 0, stream>>>(
-      answers, views, count, best);
+  launch(bestKernel,
+         static_cast<unsigned>(window_count),
+         kRankThreads,
+         stream,
+         answers,
+         views,
+         count,
+         best);
   RP_LAUNCHED("best hypotheses");
 }
 

@@ -124,6 +124,7 @@ void requireSharing() {
   const Stream stream;
   gles::Framebuffer(shared.texture()).clear(glm::vec4(kDrawn));
   float pixels[4] = {};
+  const Landing landing(stream.get());
   {
     const MappedTextures mapped({&shared}, stream.get());
     downloadFrom(mapped.array(0), Element::kFloat, 2, 2, pixels, stream.get());

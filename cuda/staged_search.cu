@@ -1,5 +1,6 @@
 #include "core/error.h"
 #include "cuda/check.h"
+#include "cuda/launch.h"
 #include "cuda/pixels.h"
 #include "cuda/staged_body.h"
 #include "cuda/staged_search.h"
@@ -120,39 +121,64 @@ void StagedSearch::check(const StagedInput& in) const {
 
 void StagedSearch::start(const StagedInput& in, float seed_range_px, cudaStream_t stream) {
   check(in);
-  startKernel<<<blocksFor(views_), kThreads, 0, stream>>>(
-      in.setup, in.object.entries(), seed_range_px, states_.data());
+  launch(startKernel,
+         blocksFor(views_),
+         kThreads,
+         stream,
+         in.setup,
+         in.object.entries(),
+         seed_range_px,
+         states_.data());
   RP_LAUNCHED("start of the simplexes");
 }
 
 void StagedSearch::evaluate(const StagedInput& in, cudaStream_t stream) {
   check(in);
   const dim3 threads(kTilePixels, kTilePixels);
-  errorKernel<<<tileBlocks(size_, views_), threads, 0, stream>>>(in.setup,
-                                                                 in.atlas,
-                                                                 in.range_px,
-                                                                 in.distance_px,
-                                                                 in.object.outsideDistance(),
-                                                                 states_.data(),
-                                                                 levels_[0].data());
+  launch(errorKernel,
+         tileBlocks(size_, views_),
+         threads,
+         stream,
+         in.setup,
+         in.atlas,
+         in.range_px,
+         in.distance_px,
+         in.object.outsideDistance(),
+         states_.data(),
+         levels_[0].data());
   RP_LAUNCHED("errors of pixels");
   for (int level = 1; level < static_cast<int>(levels_.size()); ++level) {
     const auto at = static_cast<std::size_t>(level);
-    reduceKernel<<<tileBlocks(levelPitch(size_, level), views_), threads, 0, stream>>>(
-        size_, level, states_.data(), levels_[at - 1].data(), levels_[at].data());
+    launch(reduceKernel,
+           tileBlocks(levelPitch(size_, level), views_),
+           threads,
+           stream,
+           size_,
+           level,
+           states_.data(),
+           levels_[at - 1].data(),
+           levels_[at].data());
     RP_LAUNCHED("reduction");
   }
 }
 
 void StagedSearch::step(const StagedInput& in, cudaStream_t stream) {
   RP_CUDA(cudaMemsetAsync(running_.data(), 0, sizeof(int), stream));
-  stepKernel<<<blocksFor(views_), kThreads, 0, stream>>>(
-      in.setup, in.object.entries(), terms(), states_.data(), running_.data());
+  launch(stepKernel,
+         blocksFor(views_),
+         kThreads,
+         stream,
+         in.setup,
+         in.object.entries(),
+         terms(),
+         states_.data(),
+         running_.data());
   RP_LAUNCHED("simplex step");
 }
 
 void StagedSearch::answer(int window, Hypothesis* answers, cudaStream_t stream) const {
-  answerKernel<<<blocksFor(views_), kThreads, 0, stream>>>(states_.data(), views_, window, answers);
+  launch(
+      answerKernel, blocksFor(views_), kThreads, stream, states_.data(), views_, window, answers);
   RP_LAUNCHED("answers of the simplexes");
 }
 
@@ -180,8 +206,15 @@ void simplexSteps(SimplexState* states,
                   const SimplexOptions& options,
                   cudaStream_t stream) {
   if (count == 0) return;
-  replayKernel<<<blocksFor(count), kThreads, 0, stream>>>(
-      states, values, count, options.spread, options.max_iterations);
+  launch(replayKernel,
+         blocksFor(count),
+         kThreads,
+         stream,
+         states,
+         values,
+         count,
+         options.spread,
+         options.max_iterations);
   RP_LAUNCHED("simplex steps");
 }
 

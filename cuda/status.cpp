@@ -1,5 +1,6 @@
 #include <cuda_runtime_api.h>
 
+#include "cuda/check.h"
 #include "cuda/cuda_path.h"
 
 namespace rangepose::cuda {
@@ -38,6 +39,7 @@ DeviceInfo describe(int index) {
 Status status() {
   Status result;
   result.toolkit = versionText(CUDART_VERSION);
+  result.emulated = kEmulated;
   int version = 0;
   if (cudaDriverGetVersion(&version) != cudaSuccess || version == 0) {
     result.missing = "no NVIDIA driver is found (libcuda.so.1); use --path auto, glsl or host";

@@ -1,5 +1,6 @@
 #include "cuda/stream.h"
 
+#include <exception>
 #include <utility>
 
 #include "cuda/check.h"
@@ -16,6 +17,11 @@ Stream::~Stream() {
   if (stream_ != nullptr) cudaStreamDestroy(stream_);
 }
 void Stream::synchronize() const { RP_CUDA(cudaStreamSynchronize(stream_)); }
+
+Landing::Landing(cudaStream_t stream) : stream_(stream), exceptions_(std::uncaught_exceptions()) {}
+Landing::~Landing() {
+  if (std::uncaught_exceptions() > exceptions_) cudaStreamSynchronize(stream_);
+}
 
 Event::Event() { RP_CUDA(cudaEventCreate(&event_)); }
 Event::Event(Event&& other) noexcept : event_(std::exchange(other.event_, nullptr)) {}

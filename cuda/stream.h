@@ -23,6 +23,20 @@ class Stream {
   cudaStream_t stream_ = nullptr;
 };
 
+/// Waits for a stream where a function is left by an exception, so that no copy is on its way to
+/// memory of the host that goes. To be declared after that memory.
+class Landing {
+ public:
+  explicit Landing(cudaStream_t stream);
+  Landing(const Landing&) = delete;
+  Landing& operator=(const Landing&) = delete;
+  ~Landing();
+
+ private:
+  cudaStream_t stream_;
+  int exceptions_;
+};
+
 /// A moment in a stream.
 class Event {
  public:

@@ -1,5 +1,6 @@
 #include "cuda/block.h"
 #include "cuda/check.h"
+#include "cuda/launch.h"
 #include "cuda/surface_points.h"
 #include "cuda/surface_points_body.h"
 
@@ -43,8 +44,14 @@ void pickPoints(const PickTask* picks,
                 SurfacePoint* points,
                 cudaStream_t stream) {
   if (task_count == 0) return;
-  pickPointsKernel<<<static_cast<unsigned>(task_count), kThreads, 0, stream>>>(
-      picks, camera, tasks, points);
+  launch(pickPointsKernel,
+         static_cast<unsigned>(task_count),
+         kThreads,
+         stream,
+         picks,
+         camera,
+         tasks,
+         points);
   RP_LAUNCHED("points of surfaces");
 }
 

@@ -47,8 +47,9 @@ PathStages openCuda(const cuda::PathOptions& options) {
 
 PathStages openPath(PathRequest request, const cuda::PathOptions& cuda_options) {
   if (request == PathRequest::kCuda) return openCuda(cuda_options);
-  if (request == PathRequest::kAuto && cuda::status().missing.empty()) {
-    return openCuda(cuda_options);
+  if (request == PathRequest::kAuto) {
+    const cuda::Status cuda = cuda::status();
+    if (cuda.missing.empty() && !cuda.emulated) return openCuda(cuda_options);
   }
   PathStages path;
   path.context = openContext(request, true);

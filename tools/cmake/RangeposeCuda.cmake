@@ -1,13 +1,17 @@
-# CUDA, where there is a toolkit. Sets RANGEPOSE_HAS_CUDA, enables the language and chooses architectures.
+# CUDA, where there is a toolkit. Sets RANGEPOSE_HAS_CUDA and RANGEPOSE_CUDA_EMULATED, enables the language and chooses architectures.
 #
-#   RANGEPOSE_CUDA           AUTO: with a toolkit if one is found; ON: without one configuring fails; OFF: never
+#   RANGEPOSE_CUDA           AUTO: with a toolkit if one is found; ON: without one configuring fails; OFF: never;
+#                            EMULATED: by the compiler of the host, for a device that the host emulates (for tests)
 #   CMAKE_CUDA_COMPILER      or CUDACXX in the environment, PATH, CUDA_HOME, /usr/local/cuda: where nvcc is looked for
 #   CMAKE_CUDA_ARCHITECTURES to compile for other processors, e.g. 90 for an H100 or H200 alone
 
-set(RANGEPOSE_CUDA AUTO CACHE STRING "Build the CUDA path: AUTO, ON or OFF")
-set_property(CACHE RANGEPOSE_CUDA PROPERTY STRINGS AUTO ON OFF)
+set(RANGEPOSE_CUDA AUTO CACHE STRING "Build the CUDA path: AUTO, ON, OFF or EMULATED")
+set_property(CACHE RANGEPOSE_CUDA PROPERTY STRINGS AUTO ON OFF EMULATED)
 set(RANGEPOSE_HAS_CUDA FALSE)
-if(RANGEPOSE_CUDA STREQUAL "AUTO" OR RANGEPOSE_CUDA)
+set(RANGEPOSE_CUDA_EMULATED FALSE)
+if(RANGEPOSE_CUDA STREQUAL "EMULATED")
+  set(RANGEPOSE_CUDA_EMULATED TRUE)
+elseif(RANGEPOSE_CUDA STREQUAL "AUTO" OR RANGEPOSE_CUDA)
   if(NOT CMAKE_CUDA_COMPILER AND "$ENV{CUDACXX}" STREQUAL "")
     find_program(RANGEPOSE_NVCC nvcc HINTS ENV CUDA_HOME ENV CUDA_PATH PATHS /usr/local/cuda PATH_SUFFIXES bin)
     mark_as_advanced(RANGEPOSE_NVCC)
@@ -68,6 +72,8 @@ if(RANGEPOSE_HAS_CUDA)
   set(CMAKE_CUDA_RUNTIME_LIBRARY Static)
   find_package(CUDAToolkit REQUIRED)
   message(STATUS "CUDA ${CMAKE_CUDA_COMPILER_VERSION}, architectures ${CMAKE_CUDA_ARCHITECTURES}")
+elseif(RANGEPOSE_CUDA_EMULATED)
+  message(STATUS "CUDA: emulated on the host")
 else()
   message(STATUS "CUDA: not built (RANGEPOSE_CUDA=${RANGEPOSE_CUDA})")
 endif()

@@ -110,7 +110,10 @@ void printContext(const gles::ContextInfo& info) {
 void printCuda(const CudaFindings& found) {
   const cuda::Status& status = found.status;
   std::cout << "CUDA\n";
-  row("cuda", status.toolkit.empty() ? "not built in" : "built with CUDA " + status.toolkit);
+  row("cuda",
+      status.toolkit.empty() ? "not built in"
+      : status.emulated      ? "built for a device that the host emulates: for tests"
+                             : "built with CUDA " + status.toolkit);
   std::string driver = hasNvidiaDriver() ? "found (libcuda.so.1)" : "not found (libcuda.so.1)";
   if (!status.driver.empty()) driver += ", up to CUDA " + status.driver;
   row("NVIDIA driver", driver);
@@ -163,13 +166,16 @@ void printPaths(const gles::ContextInfo* info, const CudaFindings& cuda) {
   std::cout << "paths\n";
   row("host", "yes");
   row("glsl", info == nullptr ? "no" : info->software ? "yes, in software: slow" : "yes");
-  row("cuda", cuda.failure.empty() ? "yes" : "no");
+  row("cuda",
+      !cuda.failure.empty()  ? "no"
+      : cuda.status.emulated ? "yes, emulated: for tests"
+                             : "yes");
   const bool gpu = info != nullptr && !info->software;
   row("--path auto",
       fmt::format("takes {}; build renders by {}",
-                  cuda.failure.empty() ? "cuda"
-                  : gpu                ? "glsl"
-                                       : "host",
+                  cuda.failure.empty() && !cuda.status.emulated ? "cuda"
+                  : gpu                                         ? "glsl"
+                                                                : "host",
                   info != nullptr ? "glsl" : "host"));
 }
 
