@@ -19,7 +19,6 @@ namespace rangepose::cuda {
 namespace {
 
 constexpr int kThreads = kSearchThreads;
-constexpr int kRankThreads = 256;
 using Block = DeviceBlock<kThreads>;
 
 /// Blocks that must fit on a multiprocessor at once: what registers allow without spills.
@@ -74,16 +73,6 @@ __global__ void frameKernel(
     };
   };
   into[y * frame.stride() + x] = framedTexel(frame, outside, x, y, reader(range), reader(distance));
-}
-
-__global__ __launch_bounds__(kRankThreads) void bestKernel(const Hypothesis* answers,
-                                                           int views,
-                                                           int count,
-                                                           Hypothesis* best) {
-  __shared__ unsigned long long last;
-  const int window = static_cast<int>(blockIdx.x);
-  DeviceBlock<kRankThreads> block;
-  bestOfWindow(block, last, answers + window * views, views, count, best + window * count);
 }
 
 template <int kSlots>
@@ -159,24 +148,6 @@ void frameWindow(ImageView range_px,
   const dim3 grid((stride + kColumns - 1) / kColumns, stride);
   launch(frameKernel, grid, kColumns, stream, range_px, distance_px, outside_distance, frame, into);
   RP_LAUNCHED("frame of a window");
-}
-
-void bestHypotheses(const Hypothesis* answers,
-                    int views,
-                    int window_count,
-                    int count,
-                    Hypothesis* best,
-                    cudaStream_t stream) {
-  if (window_count == 0) return;
-  launch(bestKernel,
-         static_cast<unsigned>(window_count),
-         kRankThreads,
-         stream,
-         answers,
-         views,
-         count,
-         best);
-  RP_LAUNCHED("best hypotheses");
 }
 
 }  // namespace rangepose::cuda

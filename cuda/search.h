@@ -65,13 +65,4 @@ void errorTerms(const ResidentObject& object,
                 ErrorTerms* terms,
                 cudaStream_t stream);
 
-/// The `count` best answers of each window, the best first, into best[w * count ...]; view -1 where
-/// there are not so many.
-void bestHypotheses(const Hypothesis* answers,
-                    int views,
-                    int window_count,
-                    int count,
-                    Hypothesis* best,
-                    cudaStream_t stream);
-
 }  // namespace rangepose::cuda

@@ -203,41 +203,4 @@ RP_BODY WindowTexel framedTexel(const WindowFrame& frame,
   return {range(u, v), distance(u, v)};
 }
 
-/// Orders hypotheses by error, then view. Errors are >= 0: their bits are ordered like they are.
-RP_BODY unsigned long long rankKey(float error, int view) {
-  unsigned int bits;
-  memcpy(&bits, &error, sizeof bits);
-  return static_cast<unsigned long long>(bits) << 32 | static_cast<unsigned int>(view);
-}
-
-/// The `count` hypotheses with the smallest errors among `views`, the best first; on a tie the
-/// lower view. Where there are not so many: view -1. `last` is shared.
-template <typename Block>
-RP_BODY void bestOfWindow(Block& block,
-                          unsigned long long& last,
-                          const Hypothesis* all,
-                          int views,
-                          int count,
-                          Hypothesis* best) {
-  using Key = unsigned long long;
-  constexpr Key kNone = ~Key{0};
-  for (int rank = 0; rank < count; ++rank) {
-    typename Block::template PerThread<Key> keys;
-    block.forEachThread([&](int thread) {
-      Key least = kNone;
-      for (int view = thread; view < views; view += Block::kThreads) {
-        const Key key = rankKey(all[view].error, view);
-        if ((rank == 0 || key > last) && key < least) least = key;
-      }
-      keys[thread] = least;
-    });
-    block.smallest(keys, [&](Key least) {
-      Hypothesis none;
-      none.view = -1;
-      best[rank] = least == kNone ? none : all[least & 0xffffffffULL];
-      last = least;
-    });
-  }
-}
-
 }  // namespace rangepose::cuda

@@ -31,7 +31,7 @@ constexpr NamedTolerance kTolerances[] = {
     // Seen 0; 4 ulp of coordinates below 1000 px where a division by three is not exact.
     {"simplex steps", {"px", 2.5e-4, 0.0}},
     // Seen 1e-5. An ulp of an error sum may turn a branch; that simplex then stops elsewhere within
-    // its 5 % spread.
+    // its spread.
     {"search errors", {"relative", 1.0e-3, 0.01}},
     {"search winners", {"relative", 1.0e-3, 0.0}},  // another view wins only where both are as good
     // Rasterisers disagree on the borders of triangles, whose corners GL moves by up to 1/256 px:

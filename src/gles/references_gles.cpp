@@ -12,6 +12,7 @@
 #include "core/parallel.h"
 #include "gles/device.h"
 #include "gles/mesh_buffers.h"
+#include "stages/reference_host.h"
 
 namespace rangepose::gles {
 namespace {
@@ -197,34 +198,12 @@ class BatchRenderer {
   std::vector<Region> regions_;
 };
 
-/// Box, area and anchor of a view from its tile.
-void describeView(ReferenceObject& object, int index, int columns) {
-  ReferenceView& view = object.views[static_cast<std::size_t>(index)];
-  const glm::ivec2 origin = glm::ivec2(index % columns, index / columns) * object.size;
-  PixelBox box = {object.size, object.size, 0, 0};
-  int area = 0;
-  float inner = -std::numeric_limits<float>::max();
-  for (int v = 0; v < object.size; ++v) {
-    const ReferenceTexel* row = object.atlas.row(origin.y + v) + origin.x;
-    for (int u = 0; u < object.size; ++u) {
-      if (row[u].a == 0.0f) continue;
-      ++area;
-      box = {std::min(box.x0, u),
-             std::min(box.y0, v),
-             std::max(box.x1, u + 1),
-             std::max(box.y1, v + 1)};
-      if (row[u].r > inner) {
-        inner = row[u].r;
-        view.anchor_px = {static_cast<float>(u), static_cast<float>(v), row[u].g};
-      }
-    }
-  }
-  if (area == 0) {
-    throw Error("references of object " + std::to_string(object.id) + ": view " +
-                std::to_string(index) + " shows no pixel; the mesh is too thin for this pixel_mm");
-  }
-  view.box = box;
-  view.area_px = static_cast<float>(area);
+/// Throws where a view shows nothing.
+void describeView(ReferenceObject& object, int view) {
+  describeTile(object, view);
+  if (object.views[static_cast<std::size_t>(view)].area_px > 0.0f) return;
+  throw Error("references of object " + std::to_string(object.id) + ": view " +
+              std::to_string(view) + " shows no pixel; the mesh is too thin for this pixel_mm");
 }
 
 }  // namespace
@@ -254,7 +233,7 @@ void renderReferences(Context& context,
     if (progress) progress(first + count, views);
   }
   parallelFor(views, kViewsPerPiece, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) describeView(object, i, columns);
+    for (int i = begin; i < end; ++i) describeView(object, i);
   });
 }
 

@@ -2,7 +2,7 @@
 // Twins: glsl/median.frag, glsl/edges.frag.
 #pragma once
 
-#include "stages/device.h"
+#include "core/device.h"
 #include "stages/lanes.h"
 
 namespace rangepose {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/camera.h"
-#include "stages/device.h"
+#include "core/device.h"
 #include "stages/posed_points_core.h"
 
 namespace rangepose {
@@ -37,8 +37,8 @@ struct CheckResult {
                                  ///< beside an outline or a jump, where sensors smear depth
   double relief = 0.0;  ///< reliefOf() what agrees: how much likelier it is with the part there
                         ///< than with a smooth surface, logarithm for a pixel, -1..3
-  double whole_relief = 0.0;  ///< relief that there would be if all of the surface were seen by
-                              ///< this sensor, 0..3
+  double whole_relief = 0.0;   ///< relief that there would be if all of the surface were seen by
+                               ///< this sensor, 0..3
   double inner_px = 0.0;       ///< agreeing pixels that are not beside an outline or a jump [px]
   double residual_mm = 0.0;    ///< mean absolute depth difference of the explained surface [mm]
   double explained_mm2 = 0.0;  ///< explained surface as the camera sees it [mm^2]

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "stages/device.h"
+#include "core/device.h"
 #include "stages/lanes.h"
 #include "stages/scene_channels.h"
 

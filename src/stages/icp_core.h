@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/camera.h"
+#include "core/device.h"
 #include "core/pose.h"
-#include "stages/device.h"
 #include "stages/lanes.h"
 
 namespace rangepose {

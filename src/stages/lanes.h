@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "stages/device.h"
+#include "core/device.h"
 
 #ifdef __CUDACC__
 #define RP_LANES __host__ __device__ inline

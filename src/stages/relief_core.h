@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "stages/device.h"
+#include "core/device.h"
 
 namespace rangepose {
 

@@ -3,7 +3,7 @@
 // run thousands of searches in lockstep. Twin: glsl/simplex_step.frag.
 #pragma once
 
-#include "stages/device.h"
+#include "core/device.h"
 
 namespace rangepose {
 

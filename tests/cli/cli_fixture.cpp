@@ -8,6 +8,12 @@
 namespace rangepose::test {
 namespace fs = std::filesystem;
 
+bool CliTest::cudaWorks() const {
+  static const bool kWorks =
+      run({"doctor"}).out.find("\n  cuda              yes") != std::string::npos;
+  return kWorks;
+}
+
 std::string CliTest::smallDatabase() const {
   const RunResult built = run({"build",
                                (kModels / "bolt.ply").string(),

@@ -37,6 +37,9 @@ class CliTest : public ::testing::Test {
   /// --db elbow, --depth and --camera of the demo, and `more`.
   std::vector<std::string> demoArguments(const std::vector<std::string>& more) const;
 
+  /// Whether the CUDA path works here, on a device or an emulated one.
+  bool cudaWorks() const;
+
   const std::filesystem::path& folder() const { return folder_.path(); }
 
  private:

@@ -66,8 +66,20 @@ TEST_F(CompareTest, PictureHasBothPathsAndTheirDifference) {
   EXPECT_GT(picture.rows, 6 * 200);
 }
 
+TEST_F(CompareTest, AllThreePathsStandSideBySide) {
+  if (!cudaWorks()) GTEST_SKIP() << "no CUDA device, nor an emulated one";
+  const RunResult two = compare({"--paths", "host,glsl", "--picture", "two.png"});
+  const RunResult three = compare({"--paths", "host,glsl,cuda", "--picture", "three.png"});
+  ASSERT_EQ(three.exit_code, 0) << three.err;
+  EXPECT_THAT(three.out, ::testing::HasSubstr("cuda made "));
+  EXPECT_GT(cv::imread((folder() / "three.png").string()).cols,
+            cv::imread((folder() / "two.png").string()).cols);
+}
+
 TEST_F(CompareTest, PathsThatAreNotHereAreExitCodeThree) {
-  EXPECT_TRUE(failsWith(compare({"--paths", "host,cuda", "--json", "c.json"}), 3, {"cuda"}));
+  if (!cudaWorks()) {
+    EXPECT_TRUE(failsWith(compare({"--paths", "host,cuda", "--json", "c.json"}), 3, {"cuda"}));
+  }
   EXPECT_TRUE(failsWith(compare({"--json", "c.json"}, kNoEgl), 3, {"OpenGL ES"}));
   EXPECT_FALSE(std::filesystem::exists(folder() / "c.json"));
 }

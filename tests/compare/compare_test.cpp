@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "cuda/cuda_path.h"
 #include "database/reference_database.h"
 #include "geometry/orientation_grid.h"
 #include "gles/stage_set_gles.h"
@@ -210,6 +211,20 @@ TEST(CompareTest, APathEqualsItself) {
     EXPECT_EQ(stage.differing, 0) << stage.stage;
     EXPECT_EQ(stage.max_difference, 0.0) << stage.stage;
   }
+}
+
+TEST(CompareTest, TheCudaPathIsWithinTolerance) {
+  cuda::Path path;
+  try {
+    path = cuda::openPath();
+  } catch (const Unavailable& error) {
+    if (test::backendRequired("cuda")) FAIL() << error.what();
+    GTEST_SKIP() << error.what();
+  }
+  const Comparison comparison = compareWith(*path.stages);
+  expectAllCompared(comparison);
+  EXPECT_EQ(comparison.first_out_of_tolerance, std::nullopt) << comparisonTable(comparison);
+  EXPECT_GT(comparison.subject_work.launches, 0);
 }
 
 class BentStage : public testing::TestWithParam<std::pair<const char*, const char*>> {};

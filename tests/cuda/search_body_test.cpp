@@ -1,7 +1,6 @@
 // The body of the fused search, run on the host, against the host's search.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -171,44 +170,6 @@ TEST(SearchBodyTest, AnEmptyViewIsTheWorst) {
       test::fusedOnHost<6, kSearchThreads>(FusedInput(object, window, {}));
   EXPECT_EQ(found[1].error, kWorstError);
   EXPECT_LT(found[2].error, 5.0f);
-}
-
-std::vector<Hypothesis> bestOnHost(const std::vector<Hypothesis>& all, int count) {
-  std::vector<Hypothesis> best(static_cast<std::size_t>(count));
-  cuda::HostBlock<64> block;
-  unsigned long long last = 0;
-  cuda::bestOfWindow(block, last, all.data(), static_cast<int>(all.size()), count, best.data());
-  return best;
-}
-
-TEST(SearchBodyTest, TheBestAreInOrderAndTiesGoToTheLowerView) {
-  test::Random random(8);
-  std::vector<Hypothesis> all;
-  for (int view = 0; view < 200; ++view) {
-    Hypothesis hypothesis;
-    hypothesis.view = view;
-    hypothesis.error = static_cast<float>(random.index(40)) * 0.5f;
-    all.push_back(hypothesis);
-  }
-  const std::vector<Hypothesis> best = bestOnHost(all, 32);
-  std::stable_sort(all.begin(), all.end(), [](const Hypothesis& a, const Hypothesis& b) {
-    return a.error < b.error;
-  });
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    EXPECT_EQ(best[i].view, all[i].view);
-    EXPECT_EQ(best[i].error, all[i].error);
-  }
-}
-
-TEST(SearchBodyTest, MoreThanThereAreIsAnsweredByNone) {
-  std::vector<Hypothesis> all(2);
-  all[1].view = 1;
-  all[1].error = 3.0f;
-  const std::vector<Hypothesis> best = bestOnHost(all, 4);
-  EXPECT_EQ(best[0].view, 1);
-  EXPECT_EQ(best[1].view, 0);
-  EXPECT_EQ(best[2].view, -1);
-  EXPECT_EQ(best[3].view, -1);
 }
 
 }  // namespace

@@ -179,22 +179,9 @@ TEST_F(SearchGpuTest, WindowsDoNotInfluenceEachOther) {
       toDevice(std::vector<float>{first.seed_range_px, second.seed_range_px});
   const cuda::Buffer<Hypothesis> answers(40);
   cuda::search(resident, first.setup, windows.data(), seeds.data(), 2, answers.data(), stream());
-  const cuda::Buffer<Hypothesis> best(6);
-  cuda::bestHypotheses(answers.data(), 20, 2, 3, best.data(), stream());
-  std::vector<Hypothesis> all = answers.download(40, stream());
+  const std::vector<Hypothesis> all = answers.download(40, stream());
   expectSame({all.begin(), all.begin() + 20}, test::fusedOnHost<0, kSearchThreads>(first));
   expectSame({all.begin() + 20, all.end()}, test::fusedOnHost<0, kSearchThreads>(second));
-  const std::vector<Hypothesis> chosen = best.download(6, stream());
-  for (std::size_t w = 0; w < 2; ++w) {
-    const auto begin = all.begin() + static_cast<std::ptrdiff_t>(20 * w);
-    std::stable_sort(begin, begin + 20, [](const Hypothesis& a, const Hypothesis& b) {
-      return a.error < b.error;
-    });
-    for (std::size_t rank = 0; rank < 3; ++rank) {
-      EXPECT_EQ(chosen[3 * w + rank].view, begin[static_cast<std::ptrdiff_t>(rank)].view);
-      EXPECT_EQ(chosen[3 * w + rank].window, static_cast<int>(w));
-    }
-  }
 }
 
 TEST_F(SearchGpuTest, TheStagedSearchIsLikeTheHost) {

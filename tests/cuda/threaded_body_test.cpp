@@ -40,22 +40,6 @@ TEST(ThreadedBodyTest, TheSearchOfAView) {
   }
 }
 
-TEST(ThreadedBodyTest, TheBestOfAWindow) {
-  std::vector<Hypothesis> all(150);
-  for (int view = 0; view < 150; ++view) {
-    all[static_cast<std::size_t>(view)].view = view;
-    all[static_cast<std::size_t>(view)].error = static_cast<float>(view * 37 % 50);
-  }
-  std::vector<Hypothesis> expected(10);
-  std::vector<Hypothesis> actual(10);
-  cuda::HostBlock<kThreads> host;
-  unsigned long long last = 0;
-  cuda::bestOfWindow(host, last, all.data(), 150, 10, expected.data());
-  runThreaded<kThreads>(
-      [&](auto& block) { cuda::bestOfWindow(block, last, all.data(), 150, 10, actual.data()); });
-  for (std::size_t i = 0; i < 10; ++i) EXPECT_EQ(actual[i].view, expected[i].view);
-}
-
 TEST(ThreadedBodyTest, TheDistancesOfATile) {
   const Image<float> range = test::randomBlobs(50, 40, 2);
   const Image<float> edges = host::edges(range, 2.56f);

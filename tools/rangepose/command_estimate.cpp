@@ -191,7 +191,7 @@ void declareSearch(CLI::App& command, EstimateArguments& arguments) {
       .add_option("--starts",
                   arguments.options.starts,
                   "Start points of the search, of each pass where several poses are wanted "
-                  "[3 for one pose; for several 40 of the first pass, 12 of those after it]")
+                  "[3 for one pose; for several 40 of the first pass, 20 of those after it]")
       ->check(CLI::Range(1, 1000));
   command.add_flag("--first", arguments.first, "The best pose only (default)");
   command.add_flag(
