@@ -40,8 +40,8 @@ constexpr NamedTolerance kTolerances[] = {
     {"surface outline", {"", 0.0, 0.01}},
     {"surface depth", {"mm", 0.05, 0.01}},
     {"surface normals", {"", 1.0e-4, 0.02}},
-    // The host adds up in floats, a device in doubles, and each in its own order: a few roundings of
-    // depths of some 500 mm, unless a point finds another partner for it.
+    // The same sums of floats in another order: a few roundings of depths of some 500 mm, unless a
+    // point finds another partner for it. Seen 8e-5 mm and 3e-8.
     {"alignment", {"mm", 1.0e-3, 0.01}},
     {"verdict", {"", 1.0e-6, 0.0}},
     // The surfaces are those of each path; see above for what they differ by.
