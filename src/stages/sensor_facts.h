@@ -8,7 +8,7 @@ struct SensorFacts {
   double noise_mm = 0.0;  ///< standard deviation of the error of a pixel against its neighbours,
                           ///< that of the steps of depth included [mm]
   double error_mm = 0.0;  ///< of a pixel against the smoothest surface around it, 19 px wide: what
-                          ///< neighbours share is in it; at least noise_mm, or as the
+                          ///< neighbours share is in it; once to three times noise_mm, or as the
                           ///< camera states [mm]
   double step_mm = 0.0;   ///< depth comes in steps of it; 0: none to be seen [mm]
   double jump_px = 0.0;   ///< a jump of depth is smeared over so many pixels: those between 15 and

@@ -167,7 +167,10 @@ SensorFacts sensorFacts(const DepthImage& image, double between_neighbours_mm) {
   facts.step_mm = depthStep(image.depth_mm);
   // Errors of rounding are even over a step.
   facts.noise_mm = std::hypot(between_neighbours_mm, facts.step_mm / std::sqrt(12.0));
-  facts.error_mm = std::max(facts.noise_mm, errorOfWindows(image.depth_mm));
+  // Where nothing but parts is seen no window is smooth: what is left of them is no error.
+  constexpr double kMostShared = 3.0;
+  facts.error_mm =
+      std::clamp(errorOfWindows(image.depth_mm), facts.noise_mm, kMostShared * facts.noise_mm);
   const double least_mm = std::max(kLeastJumpMm, kLeastJumpNoise * facts.noise_mm);
   PixelCounts smeared;
   PixelCounts holes;

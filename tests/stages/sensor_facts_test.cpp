@@ -85,9 +85,11 @@ TEST(SensorFactsTest, TheErrorHoldsWhatNeighboursShare) {
       image.depth_mm.at(u, v) = 500.0f + 0.1f * static_cast<float>(u) + 2.0f * wave;
     }
   }
-  const SensorFacts facts = host::sensorFacts(image, 0.1);
-  EXPECT_NEAR(facts.error_mm, 1.0, 0.15) << "right poses would seem to be off";
-  EXPECT_LE(facts.noise_mm, 0.2);
+  EXPECT_NEAR(host::sensorFacts(image, 0.4).error_mm, 1.0, 0.15)
+      << "right poses would seem to be off";
+  // So much more than neighbours differ by is the shape of things, not the sensor's error.
+  const SensorFacts quiet = host::sensorFacts(image, 0.1);
+  EXPECT_DOUBLE_EQ(quiet.error_mm, 3.0 * quiet.noise_mm);
 }
 
 TEST(SensorFactsTest, RoundPartsAndJumpsAreNoError) {
@@ -99,7 +101,7 @@ TEST(SensorFactsTest, RoundPartsAndJumpsAreNoError) {
         image.depth_mm.at(u, v) = 600.0f - 40.0f * std::sqrt(1.0f - 0.9f * across * across);
     }
   }
-  EXPECT_LE(host::sensorFacts(image, 0.0).error_mm, 0.1)
+  EXPECT_LE(host::sensorFacts(image, 0.05).error_mm, 0.1)
       << "tolerances would be wider than the sensor is bad";
 }
 
