@@ -80,7 +80,13 @@ std::unique_ptr<ResidentForeground> ForegroundFinder::find(const DepthImage& mea
   return found;
 }
 
-LateralExtent ForegroundFinder::extent(const CudaDepth& depth) {
+std::unique_ptr<ResidentDepth> ForegroundFinder::upload(const DepthImage& depth,
+                                                        const Image<std::uint8_t>& keep) {
+  return std::make_unique<CudaDepth>(depth, keep, workspace_);
+}
+
+LateralExtent ForegroundFinder::extent(const ResidentDepth& image) {
+  const auto& depth = ownImage<CudaDepth>(image);
   const cudaStream_t stream = workspace_.begin();
   extent_.reserve(4);
   extentOf(depth.foreground(), depth.camera(), extent_.data(), stream);

@@ -10,18 +10,20 @@
 
 namespace rangepose::cuda {
 
-class ForegroundFinder {
+class ForegroundFinder : public ForegroundStage {
  public:
   /// `workspace` must outlive it. So many rounds of planes are launched before the host asks
   /// whether there may be more: a floor, four walls, and faces of sheets that hide them.
   explicit ForegroundFinder(Workspace& workspace, int rounds_at_once = 8)
       : workspace_(workspace), rounds_at_once_(rounds_at_once) {}
 
-  /// Contract of StageSet::foreground. The host waits once, for mask, planes and noise; once more
-  /// where lost pixels were filled, and for each further batch of rounds.
-  std::unique_ptr<ResidentForeground> find(const DepthImage& measured, const ForegroundTask& task);
-  /// Contract of StageSet::extent.
-  LateralExtent extent(const CudaDepth& depth);
+  std::unique_ptr<ResidentDepth> upload(const DepthImage& depth,
+                                        const Image<std::uint8_t>& keep) override;
+  /// The host waits once, for mask, planes and noise; once more where lost pixels were filled, and
+  /// for each further batch of rounds.
+  std::unique_ptr<ResidentForeground> find(const DepthImage& measured,
+                                           const ForegroundTask& task) override;
+  LateralExtent extent(const ResidentDepth& depth) override;
 
  private:
   /// All but the draws; waits for the device where it must grow.

@@ -17,14 +17,17 @@ std::vector<int> Refiner::uploadPoints(const std::vector<Task>& tasks, cudaStrea
     points_.reserve(2 * all + 1);
     kept_ = 0;
   }
+  kept_ = std::min(kept_, places_.unmoved());
   points_.upload(kept.data() + kept_, kept.size() - kept_, stream, kept_);
   kept_ = kept.size();
   points_.upload(others.data(), others.size(), stream, kept_);
   return first;
 }
 
-std::vector<IcpResult> Refiner::align(const CudaDepth& depth, const std::vector<AlignTask>& tasks) {
+std::vector<IcpResult> Refiner::align(const ResidentDepth& image,
+                                      const std::vector<AlignTask>& tasks) {
   if (tasks.empty()) return {};
+  const auto& depth = ownImage<CudaDepth>(image);
   const cudaStream_t stream = workspace_.begin();
   const std::vector<int> first = uploadPoints(tasks, stream);
   std::vector<IcpTask> own;
@@ -55,9 +58,10 @@ std::vector<IcpResult> Refiner::align(const CudaDepth& depth, const std::vector<
   return icp_results_.download(own.size(), stream);
 }
 
-std::vector<CheckResult> Refiner::judge(const CudaDepth& depth,
+std::vector<CheckResult> Refiner::judge(const ResidentDepth& image,
                                         const std::vector<JudgeTask>& tasks) {
   if (tasks.empty()) return {};
+  const auto& depth = ownImage<CudaDepth>(image);
   const cudaStream_t stream = workspace_.begin();
   const std::vector<int> first = uploadPoints(tasks, stream);
   std::vector<PointsTask> own;
@@ -81,13 +85,14 @@ std::vector<CheckResult> Refiner::judge(const CudaDepth& depth,
   return verdicts_.download(own.size(), stream);
 }
 
-std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
+std::vector<IcpResult> Refiner::alignSurfaces(const ResidentDepth& image,
                                               const std::vector<RenderTask>& tasks) {
   if (tasks.empty()) return {};
+  const auto& depth = ownImage<CudaDepth>(image);
   const TileGrid grid = tileGrid(tasks);
-  const DeviceImage& image = painter_.paint(tasks, depth.camera(), grid);
+  const DeviceImage& painted = painter_.paint(tasks, depth.camera(), grid);
   const cudaStream_t stream = workspace_.begin();
-  const Frame frame({&image}, stream);
+  const Frame frame({&painted}, stream);
   std::vector<IcpTask> own;
   std::vector<PickTask> picks;
   int first = 0;
@@ -97,7 +102,7 @@ std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
     task.alignment.check();
     RP_CHECK(task.max_points >= 1, "a surface is aligned by one point at least");
     const PixelBox box = grid.box(i, task.window);
-    picks.push_back({frame.view(image), box.x0, box.y0, task.window, task.max_points});
+    picks.push_back({frame.view(painted), box.x0, box.y0, task.window, task.max_points});
     own.push_back({first,
                    0,  // known on the device only
                    task.camera_from_object,
@@ -126,18 +131,19 @@ std::vector<IcpResult> Refiner::alignSurfaces(const CudaDepth& depth,
   return icp_results_.download(own.size(), stream);
 }
 
-std::vector<CheckResult> Refiner::judgeSurfaces(const CudaDepth& depth,
+std::vector<CheckResult> Refiner::judgeSurfaces(const ResidentDepth& image,
                                                 const std::vector<RenderTask>& tasks) {
   if (tasks.empty()) return {};
+  const auto& depth = ownImage<CudaDepth>(image);
   const TileGrid grid = tileGrid(tasks);
-  const DeviceImage& image = painter_.paint(tasks, depth.camera(), grid);
+  const DeviceImage& painted = painter_.paint(tasks, depth.camera(), grid);
   const cudaStream_t stream = workspace_.begin();
-  const Frame frame({&image}, stream);
+  const Frame frame({&painted}, stream);
   std::vector<SurfaceTask> own;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const PixelBox box = grid.box(i, tasks[i].window);
     own.push_back(
-        {frame.view(image), tasks[i].window, tasks[i].sphere(), tasks[i].check, box.x0, box.y0});
+        {frame.view(painted), tasks[i].window, tasks[i].sphere(), tasks[i].check, box.x0, box.y0});
   }
   surface_tasks_.reserve(own.size());
   surface_tasks_.upload(own.data(), own.size(), stream);

@@ -11,22 +11,20 @@
 
 namespace rangepose::cuda {
 
-class Refiner {
+class Refiner : public RefineStage {
  public:
   /// `context` draws surfaces; null: the host does. Both must outlive it.
   Refiner(Workspace& workspace, gles::Context* context)
       : workspace_(workspace), painter_(workspace, context) {}
 
-  /// Contract of StageSet::align.
-  std::vector<IcpResult> align(const CudaDepth& depth, const std::vector<AlignTask>& tasks);
-  /// Contract of StageSet::judge.
-  std::vector<CheckResult> judge(const CudaDepth& depth, const std::vector<JudgeTask>& tasks);
-  /// Contract of StageSet::alignSurfaces.
-  std::vector<IcpResult> alignSurfaces(const CudaDepth& depth,
-                                       const std::vector<RenderTask>& tasks);
-  /// Contract of StageSet::judgeSurfaces.
-  std::vector<CheckResult> judgeSurfaces(const CudaDepth& depth,
-                                         const std::vector<RenderTask>& tasks);
+  std::vector<IcpResult> align(const ResidentDepth& depth,
+                               const std::vector<AlignTask>& tasks) override;
+  std::vector<CheckResult> judge(const ResidentDepth& depth,
+                                 const std::vector<JudgeTask>& tasks) override;
+  std::vector<IcpResult> alignSurfaces(const ResidentDepth& depth,
+                                       const std::vector<RenderTask>& tasks) override;
+  std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
+                                         const std::vector<RenderTask>& tasks) override;
   std::int64_t draws() const { return painter_.draws(); }
 
  private:

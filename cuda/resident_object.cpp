@@ -15,7 +15,7 @@ PackedViews checkedPack(const ReferenceObject& object) {
 }  // namespace
 
 ResidentObject::ResidentObject(const ReferenceObject& object, cudaStream_t stream)
-    : serial_(object.serial), outside_distance_(-static_cast<float>(object.edt_passes + 1)) {
+    : outside_distance_(-static_cast<float>(object.edt_passes + 1)) {
   const PackedViews packed = checkedPack(object);
   most_pixels_ = packed.most_pixels;
   most_even_pixels_ = packed.most_even_pixels;

@@ -17,8 +17,6 @@ class ResidentObject {
  public:
   ResidentObject(const ReferenceObject& object, cudaStream_t stream);
 
-  /// Whether it still shows the object: false once that got another atlas.
-  bool isOf(const ReferenceObject& object) const { return serial_ == object.serial; }
   int views() const { return static_cast<int>(entries_.size()); }
   /// Of the view that shows most, every `row_step`-th row of it [px].
   int mostPixels(int row_step) const { return row_step == 2 ? most_even_pixels_ : most_pixels_; }
@@ -28,7 +26,6 @@ class ResidentObject {
   const ViewPixel* pixels() const { return pixels_.data(); }
 
  private:
-  std::uint64_t serial_;  ///< ReferenceObject::serial
   int most_pixels_;
   int most_even_pixels_;
   float outside_distance_;

@@ -16,14 +16,9 @@ Searcher::Known Searcher::upload(const ReferenceObject& object, cudaStream_t str
   return result;
 }
 
-Searcher::Known& Searcher::known(const ReferenceObject& object, cudaStream_t stream) {
-  const auto found = objects_.find(&object);
-  if (found != objects_.end()) {
-    // An object that was rendered or read again has another atlas.
-    if (found->second.object.isOf(object)) return found->second;
-    objects_.erase(found);
-  }
-  return objects_.emplace(&object, upload(object, stream)).first->second;
+std::shared_ptr<Searcher::Known> Searcher::known(const ReferenceObject& object,
+                                                 cudaStream_t stream) {
+  return objects_.of(object.serial, [&] { return upload(object, stream); });
 }
 
 template <typename Work>
@@ -77,32 +72,34 @@ int sizeOf(const std::vector<const CudaScene*>& windows) {
 }  // namespace
 
 std::vector<Hypothesis> Searcher::search(const ReferenceObject& object,
-                                         const std::vector<const CudaScene*>& windows,
+                                         const std::vector<const ResidentScene*>& scenes,
                                          const std::vector<float>& seed_range_px,
                                          const SearchOptions& options) {
-  RP_CHECK(windows.size() == seed_range_px.size(), "one seed range a window is needed");
-  if (windows.empty()) return {};
+  RP_CHECK(scenes.size() == seed_range_px.size(), "one seed range a window is needed");
+  if (scenes.empty()) return {};
+  std::vector<const CudaScene*> windows;
+  for (const ResidentScene* scene : scenes) windows.push_back(&ownImage<CudaScene>(*scene));
   const cudaStream_t stream = workspace_.begin();
   const SearchSetup setup = searchSetup(object, sizeOf(windows), options);
-  Known& views = known(object, stream);
+  const std::shared_ptr<Known> views = known(object, stream);
   const std::size_t count = object.views.size() * windows.size();
   answers_.reserve(count);
   if (staged_) {
     for (std::size_t w = 0; w < windows.size(); ++w) {
-      withStaged(views, *windows[w], setup, stream, [&](const StagedInput& in) {
-        views.programs->search(in,
-                               seed_range_px[w],
-                               static_cast<int>(w),
-                               answers_.data() + w * object.views.size(),
-                               stream);
+      withStaged(*views, *windows[w], setup, stream, [&](const StagedInput& in) {
+        views->programs->search(in,
+                                seed_range_px[w],
+                                static_cast<int>(w),
+                                answers_.data() + w * object.views.size(),
+                                stream);
       });
     }
     return answers_.download(count, stream);
   }
-  frameWindows(windows, setup.frame, views.object.outsideDistance(), stream);
+  frameWindows(windows, setup.frame, views->object.outsideDistance(), stream);
   seeds_.reserve(seed_range_px.size());
   seeds_.upload(seed_range_px.data(), seed_range_px.size(), stream);
-  cuda::search(views.object,
+  cuda::search(views->object,
                setup,
                windows_.data(),
                seeds_.data(),
@@ -121,7 +118,7 @@ std::vector<ErrorTerms> Searcher::errorTerms(const ReferenceObject& object,
   SearchOptions search_options;
   search_options.error = options;
   const SearchSetup setup = searchSetup(object, sizeOf({&window}), search_options);
-  Known& views = known(object, stream);
+  const std::shared_ptr<Known> views = known(object, stream);
   if (staged_) {
     std::vector<SimplexState> states;
     states.reserve(translations_px.size());
@@ -129,15 +126,15 @@ std::vector<ErrorTerms> Searcher::errorTerms(const ReferenceObject& object,
       states.push_back(simplexStart(at.x, at.y, at.z, search_options.simplex.step_px));
     }
     std::vector<ErrorTerms> terms(states.size());
-    withStaged(views, window, setup, stream, [&](const StagedInput& in) {
-      RP_CUDA(cudaMemcpyAsync(views.programs->states(),
+    withStaged(*views, window, setup, stream, [&](const StagedInput& in) {
+      RP_CUDA(cudaMemcpyAsync(views->programs->states(),
                               states.data(),
                               states.size() * sizeof(SimplexState),
                               cudaMemcpyHostToDevice,
                               stream));
-      views.programs->evaluate(in, stream);
+      views->programs->evaluate(in, stream);
       RP_CUDA(cudaMemcpyAsync(terms.data(),
-                              views.programs->terms(),
+                              views->programs->terms(),
                               terms.size() * sizeof(ErrorTerms),
                               cudaMemcpyDeviceToHost,
                               stream));
@@ -145,12 +142,12 @@ std::vector<ErrorTerms> Searcher::errorTerms(const ReferenceObject& object,
     });
     return terms;
   }
-  frameWindows({&window}, setup.frame, views.object.outsideDistance(), stream);
+  frameWindows({&window}, setup.frame, views->object.outsideDistance(), stream);
   translations_.reserve(translations_px.size());
   translations_.upload(translations_px.data(), translations_px.size(), stream);
   terms_.reserve(translations_px.size());
   cuda::errorTerms(
-      views.object, setup, windows_.data(), translations_.data(), terms_.data(), stream);
+      views->object, setup, windows_.data(), translations_.data(), terms_.data(), stream);
   return terms_.download(translations_px.size(), stream);
 }
 

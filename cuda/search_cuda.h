@@ -1,34 +1,34 @@
 // The search, fused or staged, with what it needs kept on the device from call to call.
 #pragma once
 
+#include <memory>
 #include <optional>
-#include <unordered_map>
 #include <vector>
 
+#include "core/kept.h"
 #include "cuda/scene_cuda.h"
 #include "cuda/search.h"
 #include "cuda/staged_search.h"
 
 namespace rangepose::cuda {
 
-class Searcher {
+class Searcher : public SearchStage {
  public:
   /// `staged`: the paper's three programs in turn, over the atlas as it is; else one kernel over
   /// the views' pixels.
   Searcher(Workspace& workspace, bool staged) : workspace_(workspace), staged_(staged) {}
 
-  /// Contract of StageSet::search.
   std::vector<Hypothesis> search(const ReferenceObject& object,
-                                 const std::vector<const CudaScene*>& windows,
+                                 const std::vector<const ResidentScene*>& windows,
                                  const std::vector<float>& seed_range_px,
-                                 const SearchOptions& options);
-  /// Contract of StageSet::errorTerms.
+                                 const SearchOptions& options) override;
+  /// Contract of StageProbe::errorTerms.
   std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
                                      const CudaScene& window,
                                      const std::vector<glm::vec3>& translations_px,
                                      const ErrorOptions& options);
 
-  /// Contract of StageSet::simplexSteps.
+  /// Contract of StageProbe::simplexSteps.
   std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
                                          const std::vector<float>& values,
                                          const SimplexOptions& options);
@@ -40,7 +40,7 @@ class Searcher {
     std::optional<DeviceImage> atlas;
     std::optional<StagedSearch> programs;
   };
-  Known& known(const ReferenceObject& object, cudaStream_t stream);
+  std::shared_ptr<Known> known(const ReferenceObject& object, cudaStream_t stream);
   Known upload(const ReferenceObject& object, cudaStream_t stream);
   /// All windows with background around them, one after the other.
   void frameWindows(const std::vector<const CudaScene*>& windows,
@@ -57,7 +57,7 @@ class Searcher {
 
   Workspace& workspace_;
   bool staged_;
-  std::unordered_map<const ReferenceObject*, Known> objects_;
+  Kept<std::uint64_t, Known> objects_{kObjectsKept};
   Buffer<WindowTexel> windows_;
   Buffer<float> seeds_;
   Buffer<Hypothesis> answers_;

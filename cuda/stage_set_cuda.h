@@ -1,4 +1,4 @@
-// The CUDA path: all stages as kernels; GL draws surfaces.
+// The CUDA path: all four stages as kernels; GL draws surfaces.
 #pragma once
 
 #include <memory>

@@ -1,6 +1,7 @@
 #include "cuda/surface_painter.h"
 
 #include <algorithm>
+#include <memory>
 #include <unordered_map>
 
 #include "core/parallel.h"
@@ -68,12 +69,12 @@ void SurfacePainter::drawWithGl(const std::vector<RenderTask>& tasks,
   const gles::Framebuffer target(color, &*depth_);
   target.clear(glm::vec4(0.0f));
   target.clearDepth();
-  std::unordered_map<const Mesh*, const gles::MeshBuffers*> buffers;
+  std::unordered_map<const Mesh*, std::shared_ptr<const gles::MeshBuffers>> buffers;
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     const RenderTask& task = tasks[i];
     if (task.window.width <= 0 || task.window.height <= 0) continue;
-    const gles::MeshBuffers*& mesh = buffers[task.mesh];
-    if (mesh == nullptr) mesh = &meshes_.of(*task.mesh);
+    std::shared_ptr<const gles::MeshBuffers>& mesh = buffers[task.mesh];
+    if (mesh == nullptr) mesh = meshes_.of(*task.mesh);
     gles::renderSurface(*device_,
                         target,
                         grid.box(i, task.window),

@@ -1,7 +1,8 @@
 // Where a measured pixel lands in the orthographic range image: one point a pixel that it covers.
 // Twin of src/stages/resample_core.h. Instance = pixel of the footprint.
-uniform sampler2D u_depth_mm;        // the part of the image that is read; 0 = no measurement
-uniform ivec2 u_first;               // its upper left pixel in the image
+uniform sampler2D u_depth_mm;        // 0 = no measurement
+uniform ivec2 u_first;               // upper left pixel of the part that is read
+uniform int u_columns;               // of that part
 uniform int u_footprint;             // pixels along a side of the largest footprint
 uniform ivec2 u_target_size;
 uniform vec4 u_ray;                  // inv_fx, inv_fy, cx, cy
@@ -17,11 +18,9 @@ flat out highp float v_range;
 const float kMaxFootprint = 8.0;
 
 void main() {
-  int columns = textureSize(u_depth_mm, 0).x;
-  ivec2 texel = ivec2(gl_VertexID % columns, gl_VertexID / columns);
-  ivec2 pixel = u_first + texel;
+  ivec2 pixel = u_first + ivec2(gl_VertexID % u_columns, gl_VertexID / u_columns);
   ivec2 part = ivec2(gl_InstanceID % u_footprint, gl_InstanceID / u_footprint);
-  float depth = texelFetch(u_depth_mm, texel, 0).r;
+  float depth = texelFetch(u_depth_mm, pixel, 0).r;
   float reach = u_parallel != 0.0 ? 1.0 : depth;
   RP_PRECISE float x = (float(pixel.x) - u_ray.z) * u_ray.x * reach;
   RP_PRECISE float y = (float(pixel.y) - u_ray.w) * u_ray.y * reach;

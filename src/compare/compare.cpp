@@ -252,8 +252,9 @@ Comparison comparePaths(const DepthImage& depth,
     return result;
   };
   Comparison comparison;
-  comparison.reference = reference.name();
-  comparison.subject = subject.name();
+  comparison.reference = reference.name;
+  comparison.subject = subject.name;
+  comparison.left_to_host = subject.left_to_host;
   const DeviceWork before = subject.work();
   {
     const Run recorded = run(reference);
@@ -263,7 +264,7 @@ Comparison comparePaths(const DepthImage& depth,
   // By now both paths have made what they make once, so these times compare.
   const Run expected = run(reference);
   const Run actual = run(subject);
-  comparison.chained = Chained(database, expected, actual, subject.name()).results();
+  comparison.chained = Chained(database, expected, actual, subject.name).results();
   comparison.first_out_of_tolerance = firstOut(comparison);
   comparison.verdict = verdictOf(comparison, database, expected, actual);
   comparison.subject_work = workBetween(before, subject.work());

@@ -38,6 +38,7 @@ struct Comparison {
   std::optional<std::string> first_out_of_tolerance;
   std::vector<std::string> verdict;  ///< one line each: starts, winning views, poses
   DeviceWork subject_work;           ///< what the subject did on its device meanwhile
+  std::string left_to_host;          ///< stages that the subject has not, in words; empty: none
 };
 
 /// Throws Error when the image has no measured pixel. The first call on a path includes what it

@@ -28,8 +28,9 @@ class Isolated {
         search_(reference, subject) {}
 
   void foreground(const ForegroundTask& task) {
-    const auto [expected, actual] = foreground_.run(
-        reference_, subject_, [&](StageSet& stages) { return stages.foreground(depth_, task); });
+    const auto [expected, actual] = foreground_.run(reference_, subject_, [&](StageSet& stages) {
+      return stages.foreground->find(depth_, task);
+    });
     const Foreground& a = expected->on_host;
     const Foreground& b = actual->on_host;
     foreground_.addLabels(a.mask, b.mask);
@@ -57,7 +58,7 @@ class Isolated {
         windowAround(depth_.camera, pose * object.center_mm, object.radius_mm, all);
     if (window.width == 0) return;
     const auto [expected, actual] = outline_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.renderSurface(object.mesh, depth_.camera, pose, window);
+      return stages.probe->renderSurface(object.mesh, depth_.camera, pose, window);
     });
     if (actual.width() != expected.width() || actual.height() != expected.height()) {
       outline_.addMissing(static_cast<std::int64_t>(expected.size()));
@@ -89,23 +90,23 @@ class Isolated {
  private:
   void imageStages(const OrthoCamera& camera, const ChannelOptions& options) {
     const auto [raw, raw_actual] = resample_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.resample(depth_, trace_.foreground, camera);
+      return stages.probe->resample(depth_, trace_.foreground, camera);
     });
     resample_.addImages(raw, raw_actual);
     const auto [range, range_actual] = median_.run(
-        reference_, subject_, [&raw = raw](StageSet& stages) { return stages.median(raw); });
+        reference_, subject_, [&raw = raw](StageSet& stages) { return stages.probe->median(raw); });
     median_.addImages(range, range_actual);
     channelStages(range, options);
   }
 
   void channelStages(const Image<float>& range, const ChannelOptions& options) {
     const auto [edges, edges_actual] = edges_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.edges(range, options.edgeThresholdPx());
+      return stages.probe->edges(range, options.edgeThresholdPx());
     });
     edges_.addImages(edges, edges_actual);
     const auto [texels, texels_actual] =
         edt_.run(reference_, subject_, [&, &marks = edges](StageSet& stages) {
-          return stages.distanceTexels(range, marks, options.edt_passes);
+          return stages.probe->distanceTexels(range, marks, options.edt_passes);
         });
     edt_.addImages(texels, texels_actual, [](const EdtTexel& a, const EdtTexel& b) {
       return static_cast<double>(
@@ -114,19 +115,20 @@ class Isolated {
     });
     const auto [distance, distance_actual] =
         distance_.run(reference_, subject_, [&, &marks = edges](StageSet& stages) {
-          return stages.distance(range, marks, options.edt_passes);
+          return stages.probe->distance(range, marks, options.edt_passes);
         });
     distance_.addImages(distance, distance_actual);
     const auto [labels, labels_actual] =
         patches_.run(reference_, subject_, [&, &marks = edges](StageSet& stages) {
-          return stages.patches(range, marks);
+          return stages.probe->patches(range, marks);
         });
     patches_.addLabels(labels, labels_actual);
   }
 
   void prepare(const OrthoCamera& camera, const PixelBox& region, const ChannelOptions& options) {
     const auto [expected, actual] = prepare_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.prepare(depth_, trace_.foreground, camera, region, options)->download();
+      const auto resident = stages.foreground->upload(depth_, trace_.foreground);
+      return stages.scenes->prepare(*resident, {{camera, region}}, options).front()->download();
     });
     prepare_.addImages(expected.range_px, actual.range_px);
     prepare_.addImages(expected.edges, actual.edges);
@@ -148,18 +150,18 @@ class Isolated {
   StageSet& reference_;
   StageSet& subject_;
   SearchComparison search_;
-  Tally foreground_{"foreground", subject_.name()};
-  Tally background_{"background", subject_.name()};
-  Tally resample_{"resample", subject_.name()};
-  Tally median_{"median", subject_.name()};
-  Tally edges_{"edges", subject_.name()};
-  Tally edt_{"edt", subject_.name()};
-  Tally distance_{"distance", subject_.name()};
-  Tally patches_{"patches", subject_.name()};
-  Tally prepare_{"prepare", subject_.name()};
-  Tally outline_{"surface outline", subject_.name()};
-  Tally surface_depth_{"surface depth", subject_.name()};
-  Tally normals_{"surface normals", subject_.name()};
+  Tally foreground_{"foreground", subject_.name};
+  Tally background_{"background", subject_.name};
+  Tally resample_{"resample", subject_.name};
+  Tally median_{"median", subject_.name};
+  Tally edges_{"edges", subject_.name};
+  Tally edt_{"edt", subject_.name};
+  Tally distance_{"distance", subject_.name};
+  Tally patches_{"patches", subject_.name};
+  Tally prepare_{"prepare", subject_.name};
+  Tally outline_{"surface outline", subject_.name};
+  Tally surface_depth_{"surface depth", subject_.name};
+  Tally normals_{"surface normals", subject_.name};
 };
 
 /// The pose of the best hypothesis, for an image in which none was good enough to be reported.

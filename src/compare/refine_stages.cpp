@@ -25,8 +25,8 @@ class RefineComparison {
         noise_mm_(estimate.noise_mm),
         reference_(reference),
         subject_(subject),
-        at_reference_(reference.uploadDepth(depth, trace.foreground)),
-        at_subject_(subject.uploadDepth(depth, trace.foreground)) {
+        at_reference_(reference.foreground->upload(depth, trace.foreground)),
+        at_subject_(subject.foreground->upload(depth, trace.foreground)) {
     for (const PoseEstimate& candidate : candidates_) addTasks(candidate);
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
       alignments_[i].points = &points_[i];
@@ -38,23 +38,27 @@ class RefineComparison {
     const auto at = [&](StageSet& stages) -> const ResidentDepth& {
       return &stages == &reference_ ? *at_reference_ : *at_subject_;
     };
-    poses(alignment_.run(reference_,
-                         subject_,
-                         [&](StageSet& stages) { return stages.align(at(stages), alignments_); }),
-          alignment_);
-    scores(verdict_.run(reference_,
-                        subject_,
-                        [&](StageSet& stages) { return stages.judge(at(stages), verdicts_); }),
-           verdict_);
-    poses(surface_alignment_.run(
+    poses(alignment_.run(
               reference_,
               subject_,
-              [&](StageSet& stages) { return stages.alignSurfaces(at(stages), surfaces_); }),
+              [&](StageSet& stages) { return stages.refine->align(at(stages), alignments_); }),
+          alignment_);
+    scores(
+        verdict_.run(reference_,
+                     subject_,
+                     [&](StageSet& stages) { return stages.refine->judge(at(stages), verdicts_); }),
+        verdict_);
+    poses(surface_alignment_.run(reference_,
+                                 subject_,
+                                 [&](StageSet& stages) {
+                                   return stages.refine->alignSurfaces(at(stages), surfaces_);
+                                 }),
           surface_alignment_);
-    scores(surface_verdict_.run(
-               reference_,
-               subject_,
-               [&](StageSet& stages) { return stages.judgeSurfaces(at(stages), surfaces_); }),
+    scores(surface_verdict_.run(reference_,
+                                subject_,
+                                [&](StageSet& stages) {
+                                  return stages.refine->judgeSurfaces(at(stages), surfaces_);
+                                }),
            surface_verdict_);
   }
 
@@ -116,10 +120,10 @@ class RefineComparison {
   std::vector<AlignTask> alignments_;
   std::vector<JudgeTask> verdicts_;
   std::vector<RenderTask> surfaces_;
-  Tally alignment_{"alignment", subject_.name()};
-  Tally verdict_{"verdict", subject_.name()};
-  Tally surface_alignment_{"surface alignment", subject_.name()};
-  Tally surface_verdict_{"surface verdict", subject_.name()};
+  Tally alignment_{"alignment", subject_.name};
+  Tally verdict_{"verdict", subject_.name};
+  Tally surface_alignment_{"surface alignment", subject_.name};
+  Tally surface_verdict_{"surface verdict", subject_.name};
 };
 
 }  // namespace

@@ -61,10 +61,10 @@ const Hypothesis* find(const std::vector<Hypothesis>& all, int view, int window)
 SearchComparison::SearchComparison(StageSet& reference, StageSet& subject)
     : reference_(reference),
       subject_(subject),
-      terms_("error terms", subject.name()),
-      steps_("simplex steps", subject.name()),
-      errors_("search errors", subject.name()),
-      winners_("search winners", subject.name()) {}
+      terms_("error terms", subject.name),
+      steps_("simplex steps", subject.name),
+      errors_("search errors", subject.name),
+      winners_("search winners", subject.name) {}
 
 void SearchComparison::compare(const ReferenceObject& object, const ObjectTrace& trace) {
   for (std::size_t i = 0; i < trace.windows.size(); ++i) errorTerms(object, trace, i);
@@ -85,7 +85,7 @@ void SearchComparison::errorTerms(const ReferenceObject& object,
     starts.push_back(startTranslation(object, i, trace.seed_range_px[window]));
   }
   const auto [expected, actual] = terms_.run(reference_, subject_, [&](StageSet& stages) {
-    return stages.errorTerms(object, trace.windows[window], starts, trace.search.error);
+    return stages.probe->errorTerms(object, trace.windows[window], starts, trace.search.error);
   });
   for (std::size_t i = 0; i < expected.size() && i < actual.size(); ++i) {
     terms_.add(termsDifference(expected[i], actual[i]));
@@ -111,13 +111,13 @@ void SearchComparison::replaySimplexes(const ReferenceObject& object, const Obje
     candidates.reserve(states.size());
     for (const SimplexState& state : states) candidates.push_back(candidateOf(state));
     const std::vector<ErrorTerms> terms =
-        reference_.errorTerms(object, trace.windows.front(), candidates, trace.search.error);
+        reference_.probe->errorTerms(object, trace.windows.front(), candidates, trace.search.error);
     std::vector<float> values;
     for (std::size_t i = 0; i < states.size(); ++i) {
       values.push_back(errorValue(terms[i], trace.search.error.lambdaPerPx(), areas[i]));
     }
     const auto [expected, actual] = steps_.run(reference_, subject_, [&](StageSet& stages) {
-      return stages.simplexSteps(states, values, trace.search.simplex);
+      return stages.probe->simplexSteps(states, values, trace.search.simplex);
     });
     if (actual.size() != expected.size()) {
       steps_.addMissing(static_cast<std::int64_t>(expected.size()));
@@ -134,10 +134,10 @@ void SearchComparison::search(const ReferenceObject& object, const ObjectTrace& 
     std::vector<std::unique_ptr<ResidentScene>> scenes;
     std::vector<const ResidentScene*> windows;
     for (const SceneChannels& window : trace.windows) {
-      scenes.push_back(stages.upload(window));
+      scenes.push_back(stages.scenes->upload(window));
       windows.push_back(scenes.back().get());
     }
-    return stages.search(object, windows, trace.seed_range_px, trace.search);
+    return stages.search->search(object, windows, trace.seed_range_px, trace.search);
   });
   tallyHypotheses(expected, actual, errors_, winners_);
 }

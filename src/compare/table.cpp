@@ -90,6 +90,8 @@ std::string comparisonTable(const Comparison& comparison) {
   const DeviceWork& work = comparison.subject_work;
   text += comparison.subject + " made " + std::to_string(work.draws) + " draws and " +
           std::to_string(work.launches) + " kernel launches\n";
+  if (!comparison.left_to_host.empty())
+    text += comparison.subject + " leaves to the host: " + comparison.left_to_host + '\n';
   return text;
 }
 

@@ -7,10 +7,17 @@
 
 namespace rangepose::gles {
 
+/// A depth image on the device.
+struct MeasuredTexture {
+  const Camera& camera;
+  const Texture& depth_mm;  ///< 0 = no measurement, or not to be read
+  float farthest_mm;        ///< of all of it
+};
+float farthest(const Image<float>& depth_mm);
+
 /// Depth image -> orthographic range image; contract of host::resample.
 Canvas resample(Device& device,
-                const DepthImage& image,
-                const Image<std::uint8_t>& keep,
+                const MeasuredTexture& image,
                 const OrthoCamera& camera,
                 const PixelBox& region);
 

@@ -60,11 +60,8 @@ void MeshBuffers::addTo(VertexArray& vertices) const {
   vertices.add(buffer_, {1, 3, false, kStride, offsetof(Corner, normal), false});
 }
 
-const MeshBuffers& ResidentMeshes::of(const Mesh& mesh) {
-  const std::uint64_t key = contentHash(mesh);
-  const auto found = meshes_.find(key);
-  if (found != meshes_.end()) return found->second;
-  return meshes_.emplace(key, MeshBuffers(mesh)).first->second;
+std::shared_ptr<const MeshBuffers> ResidentMeshes::of(const Mesh& mesh) {
+  return meshes_.of(contentHash(mesh), [&] { return MeshBuffers(mesh); });
 }
 
 }  // namespace rangepose::gles

@@ -2,8 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <unordered_map>
+#include <memory>
 
+#include "core/kept.h"
 #include "geometry/mesh.h"
 #include "gles/buffer.h"
 
@@ -36,10 +37,10 @@ class MeshBuffers {
 class ResidentMeshes {
  public:
   /// By content, so that a changed mesh at the same address is noticed.
-  const MeshBuffers& of(const Mesh& mesh);
+  std::shared_ptr<const MeshBuffers> of(const Mesh& mesh);
 
  private:
-  std::unordered_map<std::uint64_t, MeshBuffers> meshes_;
+  Kept<std::uint64_t, MeshBuffers> meshes_{256};
 };
 
 }  // namespace rangepose::gles

@@ -25,8 +25,12 @@ ProgramSource programSource(ProgramId id) {
       return {"region.vert", "patch_step.frag", {}, {}};
     case ProgramId::kPatchChanged:
       return {"region.vert", "patch_changed.frag", {}, {}};
+    case ProgramId::kFrameWindow:
+      return {"region.vert", "frame_window.frag", {}, {}};
     case ProgramId::kErrorPixel:
-      return {"view_box.vert", "error_pixel.frag", {"common/state.glsl"}, {}};
+      return {"view_box.vert", "error_pixel.frag", {"common/state.glsl"}, {{"RP_ROW_STEP", "1"}}};
+    case ProgramId::kErrorOfOtherRows:
+      return {"view_box.vert", "error_pixel.frag", {"common/state.glsl"}, {{"RP_ROW_STEP", "2"}}};
     case ProgramId::kReduce:
       return {"view_box.vert", "reduce.frag", {"common/state.glsl"}, {}};
     case ProgramId::kSimplexStep:

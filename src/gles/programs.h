@@ -15,7 +15,9 @@ enum class ProgramId {
   kPatchInit,
   kPatchStep,
   kPatchChanged,
+  kFrameWindow,
   kErrorPixel,
+  kErrorOfOtherRows,  ///< with every other row left out
   kReduce,
   kSimplexStep,
   kSimplexReplay,

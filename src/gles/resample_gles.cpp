@@ -8,24 +8,9 @@
 namespace rangepose::gles {
 namespace {
 
-/// The pixels that are read, with those left out set to "no measurement".
-Image<float> measured(const DepthImage& image,
-                      const Image<std::uint8_t>& keep,
-                      const PixelBox& box) {
-  Image<float> depth(box.width(), box.height(), 0.0f);
-  for (int y = 0; y < depth.height(); ++y) {
-    for (int x = 0; x < depth.width(); ++x) {
-      const bool kept = keep.empty() || keep.at(box.x0 + x, box.y0 + y) != 0;
-      if (kept) depth.at(x, y) = image.depth_mm.at(box.x0 + x, box.y0 + y);
-    }
-  }
-  return depth;
-}
-
 /// Pixels along a side of the largest footprint in the image.
-int largestFootprint(const Image<float>& depth_mm, const ResampleSetup& setup) {
-  const float farthest = *std::max_element(depth_mm.begin(), depth_mm.end());
-  const float reach = setup.parallel != 0.0f ? 1.0f : farthest;
+int largestFootprint(float farthest_mm, const ResampleSetup& setup) {
+  const float reach = setup.parallel != 0.0f ? 1.0f : farthest_mm;
   const float width = std::ceil(setup.footprint_per_mm * reach);
   return static_cast<int>(std::clamp(width, 1.0f, static_cast<float>(kMaxFootprint)));
 }
@@ -42,9 +27,12 @@ void setUp(Pass& pass, const ResampleSetup& s) {
 
 }  // namespace
 
+float farthest(const Image<float>& depth_mm) {
+  return depth_mm.empty() ? 0.0f : *std::max_element(depth_mm.begin(), depth_mm.end());
+}
+
 Canvas resample(Device& device,
-                const DepthImage& image,
-                const Image<std::uint8_t>& keep,
+                const MeasuredTexture& image,
                 const OrthoCamera& camera,
                 const PixelBox& region) {
   const PixelBox box =
@@ -55,14 +43,13 @@ Canvas resample(Device& device,
   target.clear(glm::vec4(0.0f));
   target.clearDepth();
   if (box.empty()) return result;
-  const Image<float> depth = measured(image, keep, box);
   const ResampleSetup setup = resampleSetup(image.camera, camera);
-  const int footprint = largestFootprint(depth, setup);
-  const Texture depth_texture(depth);
+  const int footprint = largestFootprint(image.farthest_mm, setup);
   Pass pass(device, ProgramId::kResample, target);
   setUp(pass, setup);
-  pass.texture("u_depth_mm", depth_texture)
+  pass.texture("u_depth_mm", image.depth_mm)
       .set("u_first", glm::ivec2(box.x0, box.y0))
+      .set("u_columns", box.width())
       .set("u_footprint", footprint)
       .set("u_target_size", glm::ivec2(camera.width, camera.height))
       .depthTest()

@@ -1,6 +1,7 @@
 #include "gles/search_gles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "core/error.h"
@@ -12,9 +13,14 @@ namespace {
 /// Width of a tile whose texels hold the sums of 2^level x 2^level pixels.
 int pitchOf(int size, int level) { return (size + (1 << level) - 1) >> level; }
 
+/// What the error pass writes: sums of 2^kFirstLevel x 2^kFirstLevel pixels.
+constexpr int kFirstLevel = 2;
+/// A pass of the reduction adds 2^kLevelStep x 2^kLevelStep sums.
+constexpr int kLevelStep = 2;
+
 std::vector<Canvas> makeLevels(int size, int columns, int rows) {
   std::vector<Canvas> levels;
-  for (int level = 0;; ++level) {
+  for (int level = kFirstLevel;; level += kLevelStep) {
     const int pitch = pitchOf(size, level);
     levels.emplace_back(Format::kRgba32f, columns * pitch, rows * pitch);
     levels.back().framebuffer.clear(glm::vec4(0.0f));
@@ -38,12 +44,35 @@ void checkObject(const ReferenceObject& object) {
            "object " + std::to_string(object.id) + ": the atlas has fewer tiles than views");
 }
 
+/// A window with background around it, wide enough for all shifts.
+struct FramedWindow {
+  FramedWindow(Device& device, const ResidentObject& object, const WindowTextures& window)
+      : margin((window.range_px.width() - object.size()) / 2),
+        pad(std::max(0, static_cast<int>(std::ceil(maxShiftPx(object.size()))) + 1 - margin)),
+        texels(
+            Format::kRg32f, window.range_px.width() + 2 * pad, window.range_px.height() + 2 * pad) {
+    const glm::ivec2 size(texels.texture.width(), texels.texture.height());
+    Pass(device, ProgramId::kFrameWindow, texels.framebuffer)
+        .texture("u_scene_range", window.range_px)
+        .texture("u_scene_distance", window.distance_px)
+        .set("u_target_size", size)
+        .set("u_pad", pad)
+        .set("u_outside_distance", object.outsideDistance())
+        .draw(Regions(size.x, size.y));
+  }
+  int origin() const { return pad + margin; }
+
+  int margin;  ///< of a tile in the window [px]
+  int pad;     ///< background on each side [px]
+  Canvas texels;
+};
+
 Pass viewPass(Device& device,
               ProgramId program,
               const ResidentObject& object,
               const Texture& state,
               int level) {
-  const Framebuffer& target = object.levels()[static_cast<std::size_t>(level)].framebuffer;
+  const Framebuffer& target = object.level(level).framebuffer;
   Pass pass(device, program, target);
   pass.texture("u_state", state)
       .set("u_target_size", glm::ivec2(target.width(), target.height()))
@@ -56,27 +85,27 @@ Pass viewPass(Device& device,
 /// The sums of every view at the candidate of its state; views that are done keep their last ones.
 const Texture& evaluate(Device& device,
                         const ResidentObject& object,
-                        const WindowTextures& window,
+                        const FramedWindow& window,
                         const Texture& state,
                         const ErrorOptions& options) {
-  viewPass(device, ProgramId::kErrorPixel, object, state, 0)
+  const RangeRule rule = rangeRule(options.range_limit_px, options.holes);
+  const ProgramId errors =
+      options.row_step == 1 ? ProgramId::kErrorPixel : ProgramId::kErrorOfOtherRows;
+  viewPass(device, errors, object, state, kFirstLevel)
       .texture("u_atlas", object.atlas())
-      .texture("u_scene_range", window.range_px)
-      .texture("u_scene_distance", window.distance_px)
+      .texture("u_window", window.texels.texture)
+      .set("u_origin", window.origin())
       .set("u_max_shift", maxShiftPx(object.size()))
-      .set("u_outside_distance", object.outsideDistance())
-      .set("u_range_limit", options.range_limit_px)
-      .set("u_holes", static_cast<int>(options.holes))
-      .set("u_row_step", options.row_step)
+      .set("u_range_rule", glm::vec3(rule.limit, rule.hole_gap, rule.hole_weight))
       .drawQuads(object.boxes(), object.views());
-  const int last = static_cast<int>(object.levels().size()) - 1;
-  for (int level = 1; level <= last; ++level) {
+  for (int level = kFirstLevel + kLevelStep; level <= object.lastLevel(); level += kLevelStep) {
     viewPass(device, ProgramId::kReduce, object, state, level)
-        .texture("u_previous", object.levels()[static_cast<std::size_t>(level - 1)].texture)
-        .set("u_previous_pitch", pitchOf(object.size(), level - 1))
+        .texture("u_previous", object.level(level - kLevelStep).texture)
+        .set("u_previous_pitch", pitchOf(object.size(), level - kLevelStep))
+        .set("u_step", kLevelStep)
         .drawQuads(object.boxes(), object.views());
   }
-  return object.levels().back().texture;
+  return object.level(object.lastLevel()).texture;
 }
 
 Canvas stateCanvas(const std::vector<SimplexState>& states) {
@@ -129,8 +158,7 @@ std::vector<Hypothesis> answers(const Texture& state) {
 }  // namespace
 
 ResidentObject::ResidentObject(const ReferenceObject& object)
-    : serial_((checkObject(object), object.serial)),
-      views_(static_cast<int>(object.views.size())),
+    : views_((checkObject(object), static_cast<int>(object.views.size()))),
       size_(object.size),
       columns_(object.columns()),
       outside_distance_(-static_cast<float>(object.edt_passes + 1)),
@@ -140,7 +168,13 @@ ResidentObject::ResidentObject(const ReferenceObject& object)
   box_vertices_.add(boxes_, {0, 4, true, sizeof(PixelBox), 0, true});
 }
 
-bool ResidentObject::isOf(const ReferenceObject& object) const { return serial_ == object.serial; }
+const Canvas& ResidentObject::level(int k) const {
+  return levels_[static_cast<std::size_t>((k - kFirstLevel) / kLevelStep)];
+}
+
+int ResidentObject::lastLevel() const {
+  return kFirstLevel + kLevelStep * (static_cast<int>(levels_.size()) - 1);
+}
 
 std::vector<ErrorTerms> errorTerms(Device& device,
                                    const ResidentObject& object,
@@ -153,8 +187,9 @@ std::vector<ErrorTerms> errorTerms(Device& device,
   states.reserve(translations_px.size());
   for (const glm::vec3& t : translations_px) states.push_back(simplexStart(t.x, t.y, t.z, 0.0f));
   const Canvas state = stateCanvas(states);
+  const FramedWindow framed(device, object, window);
   const Image<glm::vec4> sums =
-      downloadVectors(evaluate(device, object, window, state.texture, options));
+      downloadVectors(evaluate(device, object, framed, state.texture, options));
   std::vector<ErrorTerms> terms;
   terms.reserve(states.size());
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -194,10 +229,11 @@ std::vector<Hypothesis> search(Device& device,
   Canvas current = stateCanvas(states);
   Canvas next(Format::kRgba32f, current.texture.width(), kStateRows);
   const Texture areas(rowOf(area_factors));
+  const FramedWindow framed(device, object, window);
   const Regions whole(current.texture.width(), kStateRows);
   // A simplex asks at most 4 + 5 * max_iterations times, so this ends.
   for (int step = 1;; ++step) {
-    const Texture& terms = evaluate(device, object, window, current.texture, options.error);
+    const Texture& terms = evaluate(device, object, framed, current.texture, options.error);
     stepPass(device, ProgramId::kSimplexStep, current, next, options.simplex)
         .texture("u_terms", terms)
         .texture("u_areas", areas)

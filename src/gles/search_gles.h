@@ -14,8 +14,6 @@ class ResidentObject {
  public:
   explicit ResidentObject(const ReferenceObject& object);
 
-  /// Whether it still shows the object: false once that got another atlas.
-  bool isOf(const ReferenceObject& object) const;
   int views() const { return views_; }
   int size() const { return size_; }
   int columns() const { return columns_; }
@@ -23,10 +21,10 @@ class ResidentObject {
   const Texture& atlas() const { return atlas_; }
   const VertexArray& boxes() const { return box_vertices_; }
   /// Sums of 2^k x 2^k pixels of each tile; zero outside of the boxes, whatever was drawn before.
-  const std::vector<Canvas>& levels() const { return levels_; }
+  const Canvas& level(int k) const;
+  int lastLevel() const;  ///< in which a tile is one texel
 
  private:
-  std::uint64_t serial_;  ///< ReferenceObject::serial
   int views_;
   int size_;
   int columns_;

@@ -1,16 +1,52 @@
 #include "gles/stage_set_gles.h"
 
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 
-#include "core/error.h"
+#include "core/kept.h"
 #include "gles/channels_gles.h"
 #include "gles/search_gles.h"
 #include "gles/surface_gles.h"
+#include "stages/refine_host.h"
 
 namespace rangepose::gles {
 namespace {
+
+/// What all stages of the path share.
+struct Shared {
+  Shared(Context& its_context, const Defines& extra)
+      : context((its_context.makeCurrent(), its_context)), device(its_context, extra) {}
+
+  /// The device, with the context current on this thread.
+  Device& current() {
+    context.makeCurrent();
+    return device;
+  }
+  std::shared_ptr<const ResidentObject> resident(const ReferenceObject& object) {
+    return objects.of(object.serial, [&] { return ResidentObject(object); });
+  }
+
+  Context& context;
+  Device device;
+  Kept<std::uint64_t, ResidentObject> objects{kObjectsKept};
+  ResidentMeshes meshes;
+};
+
+/// Also as a texture without background, once for all windows.
+class GlesDepth : public HostDepth {
+ public:
+  GlesDepth(Context& context, const DepthImage& image, const Image<std::uint8_t>& kept)
+      : HostDepth(image, kept), context_(context), foreground_(foreground_mm) {}
+  GlesDepth(const GlesDepth&) = delete;
+  GlesDepth& operator=(const GlesDepth&) = delete;
+  ~GlesDepth() override { context_.makeCurrentIfPossible(); }
+
+  MeasuredTexture pixels() const { return {depth.camera, foreground_, farthest(foreground_mm)}; }
+
+ private:
+  Context& context_;
+  const Texture foreground_;
+};
 
 class GlesScene : public ResidentScene {
  public:
@@ -42,164 +78,148 @@ class GlesScene : public ResidentScene {
   const Texture distance_px;
 };
 
-const GlesScene& glesScene(const ResidentScene& scene) {
-  const auto* own = dynamic_cast<const GlesScene*>(&scene);
-  RP_CHECK(own != nullptr, "the scene was prepared by another path than glsl");
-  return *own;
-}
-
-class GlesStages : public StageSet {
+class GlesForeground : public ForegroundOnHost {
  public:
-  GlesStages(Context& context, const Defines& extra)
-      : context_((context.makeCurrent(), context)), device_(context, extra) {}
-  GlesStages(const GlesStages&) = delete;
-  GlesStages& operator=(const GlesStages&) = delete;
-  ~GlesStages() override { context_.makeCurrentIfPossible(); }
+  explicit GlesForeground(Shared& shared) : shared_(shared) {}
+  std::unique_ptr<ResidentDepth> upload(const DepthImage& depth,
+                                        const Image<std::uint8_t>& keep) override {
+    shared_.current();
+    return std::make_unique<GlesDepth>(shared_.context, depth, keep);
+  }
 
-  std::string name() const override { return "glsl"; }
-  DeviceWork work() const override { return {device_.draws(), 0}; }
+ private:
+  Shared& shared_;
+};
 
-  Image<float> resample(const DepthImage& image,
-                        const Image<std::uint8_t>& keep,
-                        const OrthoCamera& camera) override {
-    return gles::resample(current(), image, keep, camera, {}).texture.downloadFloats();
-  }
-  Image<float> median(const Image<float>& range) override {
-    return gles::median(current(), Texture(range)).texture.downloadFloats();
-  }
-  Image<float> edges(const Image<float>& range_px, float threshold_px) override {
-    return gles::edges(current(), Texture(range_px), threshold_px).texture.downloadFloats();
-  }
-  Image<EdtTexel> distanceTexels(const Image<float>& range_px,
-                                 const Image<float>& edges,
-                                 int passes) override {
-    Device& device = current();
-    return downloadEdt(
-        gles::distanceTexels(device, Texture(range_px), Texture(edges), passes).texture);
-  }
-  Image<float> distance(const Image<float>& range_px,
-                        const Image<float>& edges,
-                        int passes) override {
-    Device& device = current();
-    return gles::distance(device, Texture(range_px), Texture(edges), passes)
-        .texture.downloadFloats();
-  }
-  Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {
-    Device& device = current();
-    return gles::patches(device, Texture(range_px), Texture(edges)).texture.downloadInts();
-  }
-  std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
-                                     const SceneChannels& window,
-                                     const std::vector<glm::vec3>& translations_px,
-                                     const ErrorOptions& options) override;
-  std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
-                                         const std::vector<float>& values,
-                                         const SimplexOptions& options) override {
+class GlesScenes : public SceneStage {
+ public:
+  explicit GlesScenes(Shared& shared) : shared_(shared) {}
+  ResidentScenes prepare(const ResidentDepth& depth,
+                         const std::vector<WindowTask>& windows,
+                         const ChannelOptions& options) override {
     options.check();
-    return gles::simplexSteps(current(), states, values, options);
+    const MeasuredTexture pixels = ownImage<GlesDepth>(depth).pixels();
+    Device& device = shared_.current();
+    ResidentScenes scenes;
+    for (const auto& [camera, region] : windows) {
+      const Canvas raw = gles::resample(device, pixels, camera, region);
+      Canvas range = gles::median(device, raw.texture);
+      Canvas edge = gles::edges(device, range.texture, options.edgeThresholdPx());
+      Canvas distance_px = gles::distance(device, range.texture, edge.texture, options.edt_passes);
+      scenes.push_back(std::make_unique<GlesScene>(shared_.context,
+                                                   camera,
+                                                   std::move(range.texture),
+                                                   std::move(edge.texture),
+                                                   std::move(distance_px.texture)));
+    }
+    return scenes;
   }
-  Image<SurfaceTexel> renderSurface(const Mesh& mesh,
-                                    const Camera& camera,
-                                    const Pose& camera_from_object,
-                                    const SurfaceWindow& window) override;
-
-  using StageSet::prepare;
-  std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
-                                         const Image<std::uint8_t>& keep,
-                                         const OrthoCamera& camera,
-                                         const PixelBox& region,
-                                         const ChannelOptions& options) override;
-  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override;
+  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
+    shared_.current();
+    return std::make_unique<GlesScene>(shared_.context,
+                                       channels.camera,
+                                       Texture(channels.range_px),
+                                       Texture(channels.edges),
+                                       Texture(channels.distance_px));
+  }
   Image<std::int32_t> patches(const ResidentScene& scene) override {
-    const GlesScene& own = glesScene(scene);
-    return gles::patches(current(), own.range_px, own.edges).texture.downloadInts();
+    const auto& own = ownImage<GlesScene>(scene);
+    return gles::patches(shared_.current(), own.range_px, own.edges).texture.downloadInts();
   }
+
+ private:
+  Shared& shared_;
+};
+
+class GlesSearch : public SearchStage {
+ public:
+  explicit GlesSearch(Shared& shared) : shared_(shared) {}
   std::vector<Hypothesis> search(const ReferenceObject& object,
                                  const std::vector<const ResidentScene*>& windows,
                                  const std::vector<float>& seed_range_px,
                                  const SearchOptions& options) override;
 
  private:
-  /// The device, with the context current on this thread.
-  Device& current() {
-    context_.makeCurrent();
-    return device_;
-  }
-  const ResidentObject& resident(const ReferenceObject& object);
-
-  Context& context_;
-  Device device_;
-  std::unordered_map<const ReferenceObject*, ResidentObject> objects_;
-  ResidentMeshes meshes_;
+  Shared& shared_;
 };
 
-const ResidentObject& GlesStages::resident(const ReferenceObject& object) {
-  const auto found = objects_.find(&object);
-  if (found != objects_.end()) {
-    // An object that was rendered or read again has another atlas.
-    if (found->second.isOf(object)) return found->second;
-    objects_.erase(found);
+class GlesProbe : public StageProbe {
+ public:
+  explicit GlesProbe(Shared& shared) : shared_(shared) {}
+
+  Image<float> resample(const DepthImage& image,
+                        const Image<std::uint8_t>& keep,
+                        const OrthoCamera& camera) override {
+    Device& device = shared_.current();
+    const GlesDepth depth(shared_.context, image, keep);
+    return gles::resample(device, depth.pixels(), camera, {}).texture.downloadFloats();
   }
-  return objects_.emplace(&object, ResidentObject(object)).first->second;
-}
+  Image<float> median(const Image<float>& range) override {
+    return gles::median(shared_.current(), Texture(range)).texture.downloadFloats();
+  }
+  Image<float> edges(const Image<float>& range_px, float threshold_px) override {
+    Device& device = shared_.current();
+    return gles::edges(device, Texture(range_px), threshold_px).texture.downloadFloats();
+  }
+  Image<EdtTexel> distanceTexels(const Image<float>& range_px,
+                                 const Image<float>& edges,
+                                 int passes) override {
+    Device& device = shared_.current();
+    return downloadEdt(
+        gles::distanceTexels(device, Texture(range_px), Texture(edges), passes).texture);
+  }
+  Image<float> distance(const Image<float>& range_px,
+                        const Image<float>& edges,
+                        int passes) override {
+    Device& device = shared_.current();
+    return gles::distance(device, Texture(range_px), Texture(edges), passes)
+        .texture.downloadFloats();
+  }
+  Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {
+    Device& device = shared_.current();
+    return gles::patches(device, Texture(range_px), Texture(edges)).texture.downloadInts();
+  }
+  std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
+                                     const SceneChannels& window,
+                                     const std::vector<glm::vec3>& translations_px,
+                                     const ErrorOptions& options) override {
+    options.check();
+    Device& device = shared_.current();
+    const Texture range(window.range_px);
+    const Texture distance_px(window.distance_px);
+    return gles::errorTerms(
+        device, *shared_.resident(object), {range, distance_px}, translations_px, options);
+  }
+  std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
+                                         const std::vector<float>& values,
+                                         const SimplexOptions& options) override {
+    options.check();
+    return gles::simplexSteps(shared_.current(), states, values, options);
+  }
+  Image<SurfaceTexel> renderSurface(const Mesh& mesh,
+                                    const Camera& camera,
+                                    const Pose& camera_from_object,
+                                    const SurfaceWindow& window) override {
+    if (window.width <= 0 || window.height <= 0) return {};
+    Device& device = shared_.current();
+    const std::shared_ptr<const MeshBuffers> buffers = shared_.meshes.of(mesh);
+    return downloadVectors(
+        gles::renderSurface(device, mesh, *buffers, camera, camera_from_object, window).texture);
+  }
 
-std::vector<ErrorTerms> GlesStages::errorTerms(const ReferenceObject& object,
-                                               const SceneChannels& window,
-                                               const std::vector<glm::vec3>& translations_px,
-                                               const ErrorOptions& options) {
-  options.check();
-  Device& device = current();
-  const Texture range(window.range_px);
-  const Texture distance_px(window.distance_px);
-  return gles::errorTerms(device, resident(object), {range, distance_px}, translations_px, options);
-}
+ private:
+  Shared& shared_;
+};
 
-Image<SurfaceTexel> GlesStages::renderSurface(const Mesh& mesh,
-                                              const Camera& camera,
-                                              const Pose& camera_from_object,
-                                              const SurfaceWindow& window) {
-  if (window.width <= 0 || window.height <= 0) return {};
-  Device& device = current();
-  return downloadVectors(
-      gles::renderSurface(device, mesh, meshes_.of(mesh), camera, camera_from_object, window)
-          .texture);
-}
-
-std::unique_ptr<ResidentScene> GlesStages::prepare(const DepthImage& image,
-                                                   const Image<std::uint8_t>& keep,
-                                                   const OrthoCamera& camera,
-                                                   const PixelBox& region,
-                                                   const ChannelOptions& options) {
-  options.check();
-  Device& device = current();
-  const Canvas raw = gles::resample(device, image, keep, camera, region);
-  Canvas range = gles::median(device, raw.texture);
-  Canvas edge = gles::edges(device, range.texture, options.edgeThresholdPx());
-  Canvas distance_px = gles::distance(device, range.texture, edge.texture, options.edt_passes);
-  return std::make_unique<GlesScene>(context_,
-                                     camera,
-                                     std::move(range.texture),
-                                     std::move(edge.texture),
-                                     std::move(distance_px.texture));
-}
-
-std::unique_ptr<ResidentScene> GlesStages::upload(const SceneChannels& channels) {
-  context_.makeCurrent();
-  return std::make_unique<GlesScene>(context_,
-                                     channels.camera,
-                                     Texture(channels.range_px),
-                                     Texture(channels.edges),
-                                     Texture(channels.distance_px));
-}
-
-std::vector<Hypothesis> GlesStages::search(const ReferenceObject& object,
+std::vector<Hypothesis> GlesSearch::search(const ReferenceObject& object,
                                            const std::vector<const ResidentScene*>& windows,
                                            const std::vector<float>& seed_range_px,
                                            const SearchOptions& options) {
   options.simplex.check();
   options.error.check();
   RP_CHECK(windows.size() == seed_range_px.size(), "one seed range a window is needed");
-  Device& device = current();
+  Device& device = shared_.current();
+  const std::shared_ptr<const ResidentObject> resident = shared_.resident(object);
   const float max_area = object.maxArea();
   std::vector<float> areas;
   for (const ReferenceView& view : object.views) {
@@ -207,13 +227,13 @@ std::vector<Hypothesis> GlesStages::search(const ReferenceObject& object,
   }
   std::vector<Hypothesis> all;
   for (std::size_t w = 0; w < windows.size(); ++w) {
-    const GlesScene& window = glesScene(*windows[w]);
+    const auto& window = ownImage<GlesScene>(*windows[w]);
     std::vector<glm::vec3> starts;
     for (std::size_t i = 0; i < object.views.size(); ++i) {
       starts.push_back(startTranslation(object, static_cast<int>(i), seed_range_px[w]));
     }
     const std::vector<Hypothesis> found = gles::search(
-        device, resident(object), {window.range_px, window.distance_px}, starts, areas, options);
+        device, *resident, {window.range_px, window.distance_px}, starts, areas, options);
     for (Hypothesis hypothesis : found) {
       hypothesis.window = static_cast<int>(w);
       all.push_back(hypothesis);
@@ -222,10 +242,27 @@ std::vector<Hypothesis> GlesStages::search(const ReferenceObject& object,
   return all;
 }
 
+struct GlesPath {
+  GlesPath(Context& context, const Defines& extra) : shared(context, extra) {}
+  GlesPath(const GlesPath&) = delete;
+  GlesPath& operator=(const GlesPath&) = delete;
+  ~GlesPath() { shared.context.makeCurrentIfPossible(); }
+
+  Shared shared;
+  GlesForeground foreground{shared};
+  GlesScenes scenes{shared};
+  GlesSearch search{shared};
+  GlesProbe probe{shared};
+  RefineOnHost refine{probe, false};
+};
+
 }  // namespace
 
 std::unique_ptr<StageSet> makeGlesStages(Context& context, const Defines& extra) {
-  return std::make_unique<GlesStages>(context, extra);
+  const auto path = std::make_shared<GlesPath>(context, extra);
+  std::unique_ptr<StageSet> set = stageSetOf("glsl", kLeftToHost, path);
+  set->work = [path] { return DeviceWork{path->shared.device.draws(), 0}; };
+  return set;
 }
 
 }  // namespace rangepose::gles

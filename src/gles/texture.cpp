@@ -21,6 +21,8 @@ GlFormat glFormat(Format format) {
   switch (format) {
     case Format::kRgba32f:
       return {GL_RGBA32F, GL_RGBA, GL_FLOAT};
+    case Format::kRg32f:
+      return {GL_RG32F, GL_RG, GL_FLOAT};
     case Format::kR32f:
       return {GL_R32F, GL_RED, GL_FLOAT};
     case Format::kR32i:

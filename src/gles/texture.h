@@ -12,6 +12,7 @@ namespace rangepose::gles {
 
 enum class Format {
   kRgba32f,   ///< Image<glm::vec4>, Image<EdtTexel>
+  kRg32f,     ///< neither uploaded nor downloaded
   kR32f,      ///< Image<float>
   kR32i,      ///< Image<std::int32_t>
   kDepth32f,  ///< depth buffer: neither uploaded nor downloaded

@@ -27,17 +27,19 @@ void judgeRoughly(Windows& windows, const ReferenceObject& object, const RefineS
     first.push_back(views.size());
     for (const Candidate& candidate : own) views.push_back(candidate.view);
   }
-  const ViewPoints& points = scene.stages.pointsOfViews(object, kFewPoints, views);
+  const auto points = scene.stages.points_of_views.of(object, kFewPoints, views);
   std::vector<JudgeTask> tasks(views.size());
   parallelForEach(windows.size(), 1, [&](std::size_t w) {
     std::size_t next = first[w];
     for (const Candidate& candidate : windows[w]) {
-      const auto view = static_cast<std::size_t>(candidate.view);
-      tasks[next++] = {
-          &points[view], candidate.pose, visibleArea(object, candidate.view), options, true};
+      tasks[next++] = {&points->of[static_cast<std::size_t>(candidate.view)],
+                       candidate.pose,
+                       visibleArea(object, candidate.view),
+                       options,
+                       points->nameOf(candidate.view)};
     }
   });
-  const std::vector<CheckResult> verdicts = scene.stages.judge(scene.resident, tasks);
+  const std::vector<CheckResult> verdicts = scene.stages.refine->judge(scene.resident, tasks);
   const double mean_mm2 = meanVisibleArea(object);
   parallelForEach(windows.size(), 1, [&](std::size_t w) {
     std::size_t next = first[w];

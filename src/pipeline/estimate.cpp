@@ -34,7 +34,7 @@ PoseEstimate estimateOf(const Candidate& candidate) {
 
 /// The windows around the starts of one object, and what they were made of.
 struct Windows {
-  std::vector<std::unique_ptr<ResidentScene>> scenes;
+  ResidentScenes scenes;
   std::vector<OrthoCamera> cameras;
   std::vector<float> seed_range_px;
 };
@@ -74,7 +74,7 @@ class Estimator {
     ++passes_;
     // Nothing is taken out before the first pass.
     const std::unique_ptr<ResidentDepth> left =
-        passes_ > 1 ? stages_.uploadDepth(depth_, foreground) : nullptr;
+        passes_ > 1 ? stages_.foreground->upload(depth_, foreground) : nullptr;
     const ResidentDepth& resident = left ? *left : whole_;
     const RefineScene scene{
         depth_, resident, result_.noise_mm, enclosure_, stages_, options_.align};
@@ -154,7 +154,7 @@ class Estimator {
 
   LateralExtent extentOf(const ResidentDepth& resident) {
     const ScopedTimer timer(result_.times, "scene and starts");
-    return stages_.extent(resident);
+    return stages_.foreground->extent(resident);
   }
 
   /// The start points, in the camera frame [mm]; none near those in `tried`.
@@ -171,14 +171,13 @@ class Estimator {
     // Twice the passes of a reference, as the paper's 15 at 128 px for 7 at 64 px.
     ChannelOptions channel_options = channelOptionsOf(object);
     channel_options.edt_passes = 2 * object.edt_passes + 1;
-    const std::unique_ptr<ResidentScene> scene =
-        stages_.prepare(resident, camera, {}, channel_options);
-    const SceneChannels channels = scene->download();
-    const Image<std::int32_t> labels = stages_.patches(*scene);
+    const ResidentScenes scene = stages_.scenes->prepare(resident, {{camera, {}}}, channel_options);
+    const SceneChannels channels = scene.front()->download();
+    const Image<std::int32_t> labels = stages_.scenes->patches(*scene.front());
     const int count = wanted + static_cast<int>(tried.size());
     const std::vector<Seed> seeds = findSeeds(channels, labels, seedOptions(object, camera, count));
     if (trace != nullptr) {
-      trace->raw_range_px = stages_.resample(depth_, foreground, camera);
+      trace->raw_range_px = stages_.probe->resample(depth_, foreground, camera);
       trace->scene = channels;
       trace->labels = labels;
       trace->seeds = seeds;
@@ -227,7 +226,7 @@ class Estimator {
       const glm::dvec3 in_window = camera.camera_from_ortho.inverse() * point;
       windows.seed_range_px.push_back(static_cast<float>(in_window.z / object.pixel_mm));
     }
-    windows.scenes = stages_.prepareEach(resident, tasks, channelOptionsOf(object));
+    windows.scenes = stages_.scenes->prepare(resident, tasks, channelOptionsOf(object));
     if (trace == nullptr) return windows;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       trace->windows.push_back(windows.scenes[i]->download());
@@ -249,7 +248,7 @@ class Estimator {
     std::vector<const ResidentScene*> scenes;
     for (const auto& scene : windows.scenes) scenes.push_back(scene.get());
     std::vector<Hypothesis> hypotheses =
-        stages_.search(object, scenes, windows.seed_range_px, search_options);
+        stages_.search->search(object, scenes, windows.seed_range_px, search_options);
     if (trace != nullptr) {
       trace->hypotheses = hypotheses;
       trace->search = search_options;
@@ -333,7 +332,7 @@ Estimate estimatePoses(const DepthImage& measured,
   std::unique_ptr<ResidentForeground> scene;
   {
     const ScopedTimer timer(result.times, "foreground");
-    scene = stages.foreground(measured, foregroundTaskFor(database, bin));
+    scene = stages.foreground->find(measured, foregroundTaskFor(database, bin));
     result.sensor = host::sensorFacts(measured, scene->on_host.noise_mm);
     if (measured.camera.error_mm > 0.0) result.sensor.error_mm = measured.camera.error_mm;
   }

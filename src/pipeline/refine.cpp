@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kCandidatesPerPiece = 16;
 
-using Points = std::vector<const std::vector<SurfacePoint>*>;  ///< of each candidate
+using ViewsOfObjects = std::vector<std::shared_ptr<const ViewPoints>>;  ///< by object
 
 const ReferenceObject& objectOf(const Candidate& candidate, const ReferenceDatabase& database) {
   return database.objects[static_cast<std::size_t>(candidate.object)];
@@ -43,22 +43,17 @@ void setVerdicts(std::vector<Candidate>& candidates,
   }
 }
 
-/// Of the candidates' own views.
-Points pointsOfViews(const std::vector<Candidate>& candidates,
-                     const ReferenceDatabase& database,
-                     StageSet& stages,
-                     int max_points) {
+/// Of the candidates' own views at least.
+ViewsOfObjects pointsOfViews(const std::vector<Candidate>& candidates,
+                             const ReferenceDatabase& database,
+                             StageSet& stages,
+                             int max_points) {
   std::vector<std::vector<int>> views(database.objects.size());
   for (const Candidate& candidate : candidates)
     views[static_cast<std::size_t>(candidate.object)].push_back(candidate.view);
-  std::vector<const ViewPoints*> of_objects;
+  ViewsOfObjects points;
   for (std::size_t i = 0; i < views.size(); ++i)
-    of_objects.push_back(&stages.pointsOfViews(database.objects[i], max_points, views[i]));
-  Points points;
-  for (const Candidate& candidate : candidates) {
-    const ViewPoints& of_object = *of_objects[static_cast<std::size_t>(candidate.object)];
-    points.push_back(&of_object[static_cast<std::size_t>(candidate.view)]);
-  }
+    points.push_back(stages.points_of_views.of(database.objects[i], max_points, views[i]));
   return points;
 }
 
@@ -66,23 +61,28 @@ Points pointsOfViews(const std::vector<Candidate>& candidates,
 void judgeWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
-                    const Points& points,
+                    const ViewsOfObjects& points,
                     double judged) {
   std::vector<JudgeTask> tasks;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const ReferenceObject& object = objectOf(candidates[i], database);
     CheckOptions options = checkOptionsFor(object, scene.noise_mm);
     options.tolerance_mm *= judged;
-    tasks.push_back(
-        {points[i], candidates[i].pose, visibleArea(object, candidates[i].view), options, true});
+    const ViewPoints& views = *points[static_cast<std::size_t>(candidates[i].object)];
+    const int view = candidates[i].view;
+    tasks.push_back({&views.of[static_cast<std::size_t>(view)],
+                     candidates[i].pose,
+                     visibleArea(object, view),
+                     options,
+                     views.nameOf(view)});
   }
-  setVerdicts(candidates, scene.stages.judge(scene.resident, tasks), database, setVerdict);
+  setVerdicts(candidates, scene.stages.refine->judge(scene.resident, tasks), database, setVerdict);
 }
 
 void alignWithViews(std::vector<Candidate>& candidates,
                     const ReferenceDatabase& database,
                     const RefineScene& scene,
-                    const Points& points,
+                    const ViewsOfObjects& points,
                     const CoarseRound& round) {
   std::vector<AlignTask> alignments;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -94,10 +94,16 @@ void alignWithViews(std::vector<Candidate>& candidates,
     options.rim_reach_mm = round.rim_reach * object.diameter_mm;
     options.rim_weight = scene.align.coarse_rims;
     options.rim_steps = round.rim_steps;
-    alignments.push_back(
-        {points[i], candidates[i].pose, object.center_mm, object.radius_mm, options, true});
+    const ViewPoints& views = *points[static_cast<std::size_t>(candidates[i].object)];
+    const int view = candidates[i].view;
+    alignments.push_back({&views.of[static_cast<std::size_t>(view)],
+                          candidates[i].pose,
+                          object.center_mm,
+                          object.radius_mm,
+                          options,
+                          views.nameOf(view)});
   }
-  const std::vector<IcpResult> aligned = scene.stages.align(scene.resident, alignments);
+  const std::vector<IcpResult> aligned = scene.stages.refine->align(scene.resident, alignments);
   for (std::size_t i = 0; i < candidates.size(); ++i)
     candidates[i].pose = aligned[i].camera_from_object;
   judgeWithViews(candidates, database, scene, points, round.judged);
@@ -176,7 +182,7 @@ std::vector<std::size_t> alignSurfaces(std::vector<Candidate>& candidates,
     task.alignment.slide = 0.0;
     task.alignment.rim_reach_mm = fine.rim_reach * object.diameter_mm;
   }
-  const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
+  const std::vector<IcpResult> aligned = scene.stages.refine->alignSurfaces(scene.resident, tasks);
   std::vector<std::size_t> still_moving;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     Candidate& candidate = candidates[moving[i]];
@@ -200,7 +206,8 @@ void checkAll(std::vector<Candidate>& candidates,
     Candidate& candidate = candidates[i];
     candidate.outside = scene.enclosure.outsideShare(candidate.object, candidate.pose);
   });
-  setVerdicts(candidates, scene.stages.judgeSurfaces(scene.resident, tasks), database, setEvidence);
+  setVerdicts(
+      candidates, scene.stages.refine->judgeSurfaces(scene.resident, tasks), database, setEvidence);
 }
 
 /// Aligns all until they rest, moving by less than `still` [diameters] in a round, then checks
@@ -282,7 +289,7 @@ void alignPixels(std::vector<Candidate>& candidates,
     task.alignment.search_steps = 0;
     task.alignment.slide = 0.0;
   }
-  const std::vector<IcpResult> aligned = scene.stages.alignSurfaces(scene.resident, tasks);
+  const std::vector<IcpResult> aligned = scene.stages.refine->alignSurfaces(scene.resident, tasks);
   for (std::size_t i = 0; i < aligned.size(); ++i)
     candidates[i].pose = aligned[i].camera_from_object;
 }

@@ -1,7 +1,9 @@
-#include <map>
 #include <utility>
 
+#include "core/kept.h"
+#include "core/parallel.h"
 #include "stages/channels_host.h"
+#include "stages/refine_host.h"
 #include "stages/resample_host.h"
 #include "stages/search_host.h"
 #include "stages/stage_set.h"
@@ -11,20 +13,61 @@ namespace {
 
 class HostScene : public ResidentScene {
  public:
-  explicit HostScene(SceneChannels channels) : channels_(std::move(channels)) {}
-  const OrthoCamera& camera() const override { return channels_.camera; }
-  SceneChannels download() const override { return channels_; }
-  const SceneChannels& channels() const { return channels_; }
+  explicit HostScene(SceneChannels its_channels) : channels(std::move(its_channels)) {}
+  const OrthoCamera& camera() const override { return channels.camera; }
+  SceneChannels download() const override { return channels; }
 
- private:
-  SceneChannels channels_;
+  const SceneChannels channels;
 };
 
-class HostStages : public StageSet {
+class HostScenes : public SceneStage {
  public:
-  std::string name() const override { return "host"; }
-  /// All but what is kept of an object: its packed views, points of its views.
-  bool concurrent() const override { return true; }
+  ResidentScenes prepare(const ResidentDepth& depth,
+                         const std::vector<WindowTask>& windows,
+                         const ChannelOptions& options) override {
+    const auto& own = ownImage<HostDepth>(depth);
+    ResidentScenes scenes(windows.size());
+    parallelForEach(windows.size(), 1, [&](std::size_t i) {
+      const auto& [camera, region] = windows[i];
+      scenes[i] = upload(
+          host::channels(camera, host::resample(own.depth, own.keep, camera, region), options));
+    });
+    return scenes;
+  }
+  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
+    return std::make_unique<HostScene>(channels);
+  }
+  Image<std::int32_t> patches(const ResidentScene& scene) override {
+    const SceneChannels& channels = ownImage<HostScene>(scene).channels;
+    return host::patches(channels.range_px, channels.edges);
+  }
+};
+
+class HostSearch : public SearchStage {
+ public:
+  std::vector<Hypothesis> search(const ReferenceObject& object,
+                                 const std::vector<const ResidentScene*>& windows,
+                                 const std::vector<float>& seed_range_px,
+                                 const SearchOptions& options) override {
+    std::vector<const SceneChannels*> channels;
+    channels.reserve(windows.size());
+    for (const ResidentScene* window : windows) {
+      channels.push_back(&ownImage<HostScene>(*window).channels);
+    }
+    return host::search(object, *packed(object), channels, seed_range_px, options);
+  }
+
+  std::shared_ptr<const host::PackedViews> packed(const ReferenceObject& object) {
+    return packed_.of(object.serial, [&] { return host::PackedViews(object); });
+  }
+
+ private:
+  Kept<std::uint64_t, host::PackedViews> packed_{kObjectsKept};
+};
+
+class HostProbe : public StageProbe {
+ public:
+  explicit HostProbe(HostSearch& search) : search_(search) {}
 
   Image<float> resample(const DepthImage& image,
                         const Image<std::uint8_t>& keep,
@@ -52,7 +95,7 @@ class HostStages : public StageSet {
                                      const SceneChannels& window,
                                      const std::vector<glm::vec3>& translations_px,
                                      const ErrorOptions& options) override {
-    return host::errorTerms(object, packed(object), window, translations_px, options);
+    return host::errorTerms(object, *search_.packed(object), window, translations_px, options);
   }
   std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
                                          const std::vector<float>& values,
@@ -72,43 +115,22 @@ class HostStages : public StageSet {
     return host::renderSurface(mesh, camera, camera_from_object, window);
   }
 
-  using StageSet::prepare;
-  std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
-                                         const Image<std::uint8_t>& keep,
-                                         const OrthoCamera& camera,
-                                         const PixelBox& region,
-                                         const ChannelOptions& options) override {
-    return upload(host::channels(camera, host::resample(image, keep, camera, region), options));
-  }
-  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
-    return std::make_unique<HostScene>(channels);
-  }
-  Image<std::int32_t> patches(const ResidentScene& scene) override {
-    const SceneChannels& channels = static_cast<const HostScene&>(scene).channels();
-    return host::patches(channels.range_px, channels.edges);
-  }
-  std::vector<Hypothesis> search(const ReferenceObject& object,
-                                 const std::vector<const ResidentScene*>& windows,
-                                 const std::vector<float>& seed_range_px,
-                                 const SearchOptions& options) override {
-    std::vector<const SceneChannels*> channels;
-    channels.reserve(windows.size());
-    for (const ResidentScene* window : windows) {
-      channels.push_back(&static_cast<const HostScene*>(window)->channels());
-    }
-    return host::search(object, packed(object), channels, seed_range_px, options);
-  }
-
  private:
-  const host::PackedViews& packed(const ReferenceObject& object) {
-    return packed_.try_emplace(object.serial, object).first->second;
-  }
+  HostSearch& search_;
+};
 
-  std::map<std::uint64_t, host::PackedViews> packed_;  ///< by ReferenceObject::serial
+struct HostPath {
+  ForegroundOnHost foreground;
+  HostScenes scenes;
+  HostSearch search;
+  HostProbe probe{search};
+  RefineOnHost refine{probe, true};
 };
 
 }  // namespace
 
-std::unique_ptr<StageSet> makeHostStages() { return std::make_unique<HostStages>(); }
+std::unique_ptr<StageSet> makeHostStages() {
+  return stageSetOf("host", "", std::make_shared<HostPath>());
+}
 
 }  // namespace rangepose

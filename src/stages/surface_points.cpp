@@ -1,8 +1,10 @@
 #include "stages/surface_points.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
+#include "core/parallel.h"
 #include "stages/surface_points_core.h"
 
 namespace rangepose {
@@ -34,6 +36,15 @@ double slopeAtRim(const Range& range, int u, int v, const glm::dvec2& across) {
   if (near_px == 0.0 || far_px == 0.0) return 0.0;
   const double slope = (near_px - far_px) / glm::dot(glm::dvec2(near - far), across);
   return std::abs(slope) < kSteepestRim ? slope : 0.0;
+}
+
+/// Names that no other points have.
+ViewPoints nobodysPoints(std::size_t views) {
+  static std::atomic<std::uint64_t> next{1};
+  ViewPoints points;
+  points.of.resize(views);
+  points.first_name = next.fetch_add(views);
+  return points;
 }
 
 }  // namespace
@@ -118,6 +129,27 @@ int strideOn(const Image<SurfaceTexel>& surface, int max_points) {
 }
 
 }  // namespace
+
+std::shared_ptr<const ViewPoints> PointsOfViews::of(const ReferenceObject& object,
+                                                    int max_points,
+                                                    std::vector<int> views) {
+  constexpr int kViewsPerPiece = 16;
+  const std::shared_ptr<ViewPoints> points =
+      kept_.of({object.serial, max_points}, [&] { return nobodysPoints(object.views.size()); });
+  const auto of = [&](int view) -> std::vector<SurfacePoint>& {
+    return points->of[static_cast<std::size_t>(view)];
+  };
+  std::erase_if(views, [&](int view) { return !of(view).empty(); });
+  std::sort(views.begin(), views.end());
+  views.erase(std::unique(views.begin(), views.end()), views.end());
+  parallelFor(static_cast<int>(views.size()), kViewsPerPiece, [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const int view = views[static_cast<std::size_t>(i)];
+      of(view) = pointsAndRimOfView(object, view, max_points);
+    }
+  });
+  return points;
+}
 
 std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,
                                           const Camera& camera,

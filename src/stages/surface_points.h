@@ -2,9 +2,13 @@
 // Sect. 7).
 #pragma once
 
+#include <cstdint>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "core/camera.h"
+#include "core/kept.h"
 #include "stages/reference.h"
 #include "stages/surface.h"
 
@@ -32,6 +36,27 @@ std::vector<SurfacePoint> rimOfView(const ReferenceObject& object, int view, int
 std::vector<SurfacePoint> pointsAndRimOfView(const ReferenceObject& object,
                                              int view,
                                              int max_points);
+
+/// pointsAndRimOfView of the views of an object, by view; empty where they were not asked for.
+struct ViewPoints {
+  std::vector<std::vector<SurfacePoint>> of;
+  std::uint64_t first_name = 1;
+  /// Never that of other points in a process, never 0.
+  std::uint64_t nameOf(int view) const { return first_name + static_cast<std::uint64_t>(view); }
+};
+
+/// Made once: they are the same in every image.
+class PointsOfViews {
+ public:
+  /// Of those views at least.
+  std::shared_ptr<const ViewPoints> of(const ReferenceObject& object,
+                                       int max_points,
+                                       std::vector<int> views);
+
+ private:
+  /// By ReferenceObject::serial and number of points, of which there are two.
+  Kept<std::pair<std::uint64_t, int>, ViewPoints> kept_{512};
+};
 
 /// Points of a surface rendered at `camera_from_object`. At most about `max_points`, evenly spread.
 std::vector<SurfacePoint> pointsOfSurface(const Image<SurfaceTexel>& surface,

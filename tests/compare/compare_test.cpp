@@ -8,6 +8,7 @@
 #include "geometry/orientation_grid.h"
 #include "gles/stage_set_gles.h"
 #include "stages/reference_host.h"
+#include "stages/refine_host.h"
 #include "support/backends.h"
 #include "support/box_mesh.h"
 #include "support/shapes.h"
@@ -17,140 +18,186 @@ namespace {
 
 using testing::HasSubstr;
 
-/// The host's stages, of which one is bent.
-class Bent : public StageSet {
- public:
-  explicit Bent(std::string stage) : bent_(std::move(stage)), host_(makeHostStages()) {}
+/// Which of the host's stages is bent, and how.
+struct Fault {
+  std::string stage;
 
-  std::string name() const override { return "bent"; }
+  Image<float> bend(Image<float> image, const std::string& of) const {
+    if (stage == of) image.at(image.width() / 2, image.height() / 2) += 0.5f;
+    return image;
+  }
+  Image<std::int32_t> relabel(Image<std::int32_t> labels, const std::string& of) const {
+    if (stage == of) ++labels.at(0, 0);
+    return labels;
+  }
+  std::vector<IcpResult> moved(std::vector<IcpResult> results, const std::string& of) const {
+    if (stage != of) return results;
+    for (IcpResult& result : results) result.camera_from_object.translation_mm.x += 1.0;
+    return results;
+  }
+  std::vector<CheckResult> praised(std::vector<CheckResult> results, const std::string& of) const {
+    if (stage != of) return results;
+    for (CheckResult& result : results) result.score += 0.05;
+    return results;
+  }
+};
+
+struct BentForeground : ForegroundStage {
+  BentForeground(const Fault& its_fault, ForegroundStage& host) : fault(its_fault), own(host) {}
+  std::unique_ptr<ResidentDepth> upload(const DepthImage& depth,
+                                        const Image<std::uint8_t>& keep) override {
+    return own.upload(depth, keep);
+  }
+  std::unique_ptr<ResidentForeground> find(const DepthImage& measured,
+                                           const ForegroundTask& task) override {
+    std::unique_ptr<ResidentForeground> found = own.find(measured, task);
+    // One row of the image.
+    if (fault.stage == "foreground")
+      std::fill_n(found->on_host.mask.data(), measured.camera.width, 1);
+    if (fault.stage == "background") found->on_host.noise_mm += 1e-4;
+    return found;
+  }
+  LateralExtent extent(const ResidentDepth& depth) override { return own.extent(depth); }
+  const Fault& fault;
+  ForegroundStage& own;
+};
+
+struct BentScenes : SceneStage {
+  BentScenes(const Fault& its_fault, SceneStage& host) : fault(its_fault), own(host) {}
+  ResidentScenes prepare(const ResidentDepth& depth,
+                         const std::vector<WindowTask>& windows,
+                         const ChannelOptions& options) override {
+    ResidentScenes scenes = own.prepare(depth, windows, options);
+    if (fault.stage != "prepare") return scenes;
+    for (auto& scene : scenes) {
+      SceneChannels channels = scene->download();
+      channels.distance_px.at(0, 0) += 0.01f;
+      scene = own.upload(channels);
+    }
+    return scenes;
+  }
+  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
+    return own.upload(channels);
+  }
+  Image<std::int32_t> patches(const ResidentScene& scene) override {
+    return fault.relabel(own.patches(scene), "scene patches");
+  }
+  const Fault& fault;
+  SceneStage& own;
+};
+
+struct BentSearch : SearchStage {
+  BentSearch(const Fault& its_fault, SearchStage& host) : fault(its_fault), own(host) {}
+  std::vector<Hypothesis> search(const ReferenceObject& object,
+                                 const std::vector<const ResidentScene*>& windows,
+                                 const std::vector<float>& seed_range_px,
+                                 const SearchOptions& options) override {
+    std::vector<Hypothesis> all = own.search(object, windows, seed_range_px, options);
+    for (Hypothesis& hypothesis : all) {
+      if (fault.stage == "search errors") hypothesis.error *= 1.01f;
+    }
+    if (fault.stage == "search winners") all[all.size() - 1].error = 0.0f;
+    return all;
+  }
+  const Fault& fault;
+  SearchStage& own;
+};
+
+struct BentRefinement : RefineStage {
+  BentRefinement(const Fault& its_fault, RefineStage& host) : fault(its_fault), own(host) {}
+  std::vector<IcpResult> align(const ResidentDepth& depth,
+                               const std::vector<AlignTask>& tasks) override {
+    return fault.moved(own.align(depth, tasks), "alignment");
+  }
+  std::vector<CheckResult> judge(const ResidentDepth& depth,
+                                 const std::vector<JudgeTask>& tasks) override {
+    return fault.praised(own.judge(depth, tasks), "verdict");
+  }
+  std::vector<IcpResult> alignSurfaces(const ResidentDepth& depth,
+                                       const std::vector<RenderTask>& tasks) override {
+    return fault.moved(own.alignSurfaces(depth, tasks), "surface alignment");
+  }
+  std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
+                                         const std::vector<RenderTask>& tasks) override {
+    return fault.praised(own.judgeSurfaces(depth, tasks), "surface verdict");
+  }
+  const Fault& fault;
+  RefineStage& own;
+};
+
+struct BentProbe : StageProbe {
+  BentProbe(const Fault& its_fault, StageProbe& host) : fault(its_fault), own(host) {}
   Image<float> resample(const DepthImage& image,
                         const Image<std::uint8_t>& keep,
                         const OrthoCamera& camera) override {
-    return bend(host_->resample(image, keep, camera), "resample");
+    return fault.bend(own.resample(image, keep, camera), "resample");
   }
   Image<float> median(const Image<float>& range) override {
-    return bend(host_->median(range), "median");
+    return fault.bend(own.median(range), "median");
   }
   Image<float> edges(const Image<float>& range_px, float threshold_px) override {
-    return bend(host_->edges(range_px, threshold_px), "edges");
+    return fault.bend(own.edges(range_px, threshold_px), "edges");
   }
   Image<EdtTexel> distanceTexels(const Image<float>& range_px,
                                  const Image<float>& edges,
                                  int passes) override {
-    Image<EdtTexel> texels = host_->distanceTexels(range_px, edges, passes);
-    if (bent_ == "edt") texels.at(0, 0).site_x += 1.0f;
+    Image<EdtTexel> texels = own.distanceTexels(range_px, edges, passes);
+    if (fault.stage == "edt") texels.at(0, 0).site_x += 1.0f;
     return texels;
   }
   Image<float> distance(const Image<float>& range_px,
                         const Image<float>& edges,
                         int passes) override {
-    return bend(host_->distance(range_px, edges, passes), "distance");
+    return fault.bend(own.distance(range_px, edges, passes), "distance");
   }
   Image<std::int32_t> patches(const Image<float>& range_px, const Image<float>& edges) override {
-    Image<std::int32_t> labels = host_->patches(range_px, edges);
-    if (bent_ == "patches") ++labels.at(0, 0);
-    return labels;
+    return fault.relabel(own.patches(range_px, edges), "patches");
   }
   std::vector<ErrorTerms> errorTerms(const ReferenceObject& object,
                                      const SceneChannels& window,
                                      const std::vector<glm::vec3>& translations_px,
                                      const ErrorOptions& options) override {
-    std::vector<ErrorTerms> terms = host_->errorTerms(object, window, translations_px, options);
-    if (bent_ == "error terms") terms.back().range_weight *= 1.001f;
+    std::vector<ErrorTerms> terms = own.errorTerms(object, window, translations_px, options);
+    if (fault.stage == "error terms") terms.back().range_weight *= 1.001f;
     return terms;
   }
   std::vector<SimplexState> simplexSteps(const std::vector<SimplexState>& states,
                                          const std::vector<float>& values,
                                          const SimplexOptions& options) override {
-    std::vector<SimplexState> next = host_->simplexSteps(states, values, options);
-    if (bent_ == "simplex steps") next.front().lowest ^= 1;
+    std::vector<SimplexState> next = own.simplexSteps(states, values, options);
+    if (fault.stage == "simplex steps") next.front().lowest ^= 1;
     return next;
   }
   Image<SurfaceTexel> renderSurface(const Mesh& mesh,
                                     const Camera& camera,
                                     const Pose& camera_from_object,
                                     const SurfaceWindow& window) override {
-    Image<SurfaceTexel> surface = host_->renderSurface(mesh, camera, camera_from_object, window);
-    if (bent_ != "surface depth") return surface;
+    Image<SurfaceTexel> surface = own.renderSurface(mesh, camera, camera_from_object, window);
+    if (fault.stage != "surface depth") return surface;
     for (SurfaceTexel& texel : surface) texel.w += texel.w > 0.0f ? 0.2f : 0.0f;
     return surface;
   }
-  std::unique_ptr<ResidentScene> prepare(const DepthImage& image,
-                                         const Image<std::uint8_t>& keep,
-                                         const OrthoCamera& camera,
-                                         const PixelBox& region,
-                                         const ChannelOptions& options) override {
-    std::unique_ptr<ResidentScene> scene = host_->prepare(image, keep, camera, region, options);
-    if (bent_ != "prepare") return scene;
-    SceneChannels channels = scene->download();
-    channels.distance_px.at(0, 0) += 0.01f;
-    return host_->upload(channels);
-  }
-  std::unique_ptr<ResidentScene> upload(const SceneChannels& channels) override {
-    return host_->upload(channels);
-  }
-  Image<std::int32_t> patches(const ResidentScene& scene) override {
-    Image<std::int32_t> labels = host_->patches(scene);
-    if (bent_ == "scene patches") ++labels.at(0, 0);
-    return labels;
-  }
-  std::vector<Hypothesis> search(const ReferenceObject& object,
-                                 const std::vector<const ResidentScene*>& windows,
-                                 const std::vector<float>& seed_range_px,
-                                 const SearchOptions& options) override {
-    std::vector<Hypothesis> all = host_->search(object, windows, seed_range_px, options);
-    for (Hypothesis& hypothesis : all) {
-      if (bent_ == "search errors") hypothesis.error *= 1.01f;
-    }
-    if (bent_ == "search winners") all[all.size() - 1].error = 0.0f;
-    return all;
-  }
-  std::unique_ptr<ResidentForeground> foreground(const DepthImage& measured,
-                                                 const ForegroundTask& task) override {
-    std::unique_ptr<ResidentForeground> found = StageSet::foreground(measured, task);
-    // One row of the image.
-    if (bent_ == "foreground") std::fill_n(found->on_host.mask.data(), measured.camera.width, 1);
-    if (bent_ == "background") found->on_host.noise_mm += 1e-4;
-    return found;
-  }
-  std::vector<IcpResult> align(const ResidentDepth& depth,
-                               const std::vector<AlignTask>& tasks) override {
-    return moved(StageSet::align(depth, tasks), "alignment");
-  }
-  std::vector<CheckResult> judge(const ResidentDepth& depth,
-                                 const std::vector<JudgeTask>& tasks) override {
-    return praised(StageSet::judge(depth, tasks), "verdict");
-  }
-  std::vector<IcpResult> alignSurfaces(const ResidentDepth& depth,
-                                       const std::vector<RenderTask>& tasks) override {
-    return moved(StageSet::alignSurfaces(depth, tasks), "surface alignment");
-  }
-  std::vector<CheckResult> judgeSurfaces(const ResidentDepth& depth,
-                                         const std::vector<RenderTask>& tasks) override {
-    return praised(StageSet::judgeSurfaces(depth, tasks), "surface verdict");
-  }
-
- private:
-  Image<float> bend(Image<float> image, const std::string& stage) const {
-    if (bent_ == stage) image.at(image.width() / 2, image.height() / 2) += 0.5f;
-    return image;
-  }
-
-  std::vector<IcpResult> moved(std::vector<IcpResult> results, const std::string& stage) const {
-    if (bent_ != stage) return results;
-    for (IcpResult& result : results) result.camera_from_object.translation_mm.x += 1.0;
-    return results;
-  }
-  std::vector<CheckResult> praised(std::vector<CheckResult> results,
-                                   const std::string& stage) const {
-    if (bent_ != stage) return results;
-    for (CheckResult& result : results) result.score += 0.05;
-    return results;
-  }
-
-  std::string bent_;
-  std::unique_ptr<StageSet> host_;
+  const Fault& fault;
+  StageProbe& own;
 };
+
+/// The host's path, of which one stage is bent.
+struct BentPath {
+  explicit BentPath(const std::string& stage) : fault{stage}, host(makeHostStages()) {}
+
+  Fault fault;
+  std::unique_ptr<StageSet> host;
+  BentForeground foreground{fault, *host->foreground};
+  BentScenes scenes{fault, *host->scenes};
+  BentSearch search{fault, *host->search};
+  BentProbe probe{fault, *host->probe};
+  RefineOnHost on_host{probe, true};  // with surfaces that may be bent
+  BentRefinement refine{fault, on_host};
+};
+
+std::unique_ptr<StageSet> bentStages(const std::string& stage) {
+  return stageSetOf("bent", "", std::make_shared<BentPath>(stage));
+}
 
 /// A bracket on a table.
 struct Example {
@@ -231,8 +278,8 @@ class BentStage : public testing::TestWithParam<std::pair<const char*, const cha
 
 TEST_P(BentStage, IsNamed) {
   const auto [bent, named] = GetParam();
-  Bent subject(bent);
-  const Comparison comparison = compareWith(subject);
+  const std::unique_ptr<StageSet> subject = bentStages(bent);
+  const Comparison comparison = compareWith(*subject);
   ASSERT_TRUE(comparison.first_out_of_tolerance.has_value());
   EXPECT_EQ(*comparison.first_out_of_tolerance, named);
   EXPECT_THAT(comparisonTable(comparison),
@@ -268,8 +315,8 @@ INSTANTIATE_TEST_SUITE_P(AllStages,
                          });
 
 TEST(CompareTest, ASurfaceRenderedTooDeepMovesThePoseOnly) {
-  Bent subject("surface depth");
-  const Comparison comparison = compareWith(subject);
+  const std::unique_ptr<StageSet> subject = bentStages("surface depth");
+  const Comparison comparison = compareWith(*subject);
   EXPECT_TRUE(stageOf(comparison.chained, "rough errors").within);
   EXPECT_FALSE(stageOf(comparison.chained, "pose position").within);
 }
@@ -279,16 +326,16 @@ TEST(CompareTest, AnImageWithoutPartsIsCompared) {
   table.camera = test::pinholeCamera(160, 120, 210.0);
   test::measure(table, test::plateMesh(900.0, 900.0), {glm::dmat3(1.0), {0.0, 0.0, 440.0}});
   const std::unique_ptr<StageSet> host = makeHostStages();
-  Bent subject("nothing");
+  const std::unique_ptr<StageSet> subject = bentStages("nothing");
   const Comparison comparison =
-      comparePaths(table, std::nullopt, example().database, {}, *host, subject);
+      comparePaths(table, std::nullopt, example().database, {}, *host, *subject);
   EXPECT_EQ(comparison.first_out_of_tolerance, std::nullopt);
   EXPECT_THAT(comparisonTable(comparison), HasSubstr("no pose on either path"));
 }
 
 TEST(CompareTest, TheTablesColumnsAreAligned) {
-  Bent subject("median");
-  const std::string table = comparisonTable(compareWith(subject));
+  const std::unique_ptr<StageSet> subject = bentStages("median");
+  const std::string table = comparisonTable(compareWith(*subject));
   const std::size_t width = table.find('\n');
   std::size_t begin = 0;
   for (int line = 0; line < 15; ++line) {

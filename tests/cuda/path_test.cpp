@@ -24,7 +24,7 @@ TEST(CudaPathTest, WhatIsMissingIsNamedByWhoeverAsks) {
   if (found.missing.empty()) {
     EXPECT_FALSE(found.devices.empty());
     EXPECT_FALSE(found.toolkit.empty());
-    EXPECT_EQ(openPath().stages->name(), "cuda");
+    EXPECT_EQ(openPath().stages->name, "cuda");
     return;
   }
   EXPECT_FALSE(test::backendRequired("cuda")) << found.missing;

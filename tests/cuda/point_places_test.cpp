@@ -20,10 +20,11 @@ Points numbered(int first, int count) {
 
 class PointPlacesTest : public testing::Test {
  protected:
+  /// The first number of the points is their name.
   JudgeTask task(const Points& points, bool kept) {
     JudgeTask made;
     made.points = &points;
-    made.kept = kept;
+    if (kept) made.name = points.empty() ? 1 : static_cast<std::uint64_t>(points[0].position_mm.x);
     return made;
   }
   /// What the device would read there.
@@ -70,6 +71,20 @@ TEST_F(PointPlacesTest, OtherPointsAreReadAnew) {
   c_ = numbered(400, 4);
   expectPlaced({task(c_, false), task(a_, true)});
   EXPECT_EQ(places_.others().size(), 4u);
+}
+
+/// A program that runs for weeks reads many databases: what was kept of the first ones must go.
+TEST_F(PointPlacesTest, PlacesAreGivenAnewWhenThereAreTooMany) {
+  places_ = cuda::PointPlaces(7);
+  expectPlaced({task(a_, true), task(b_, true)});
+  EXPECT_EQ(places_.kept().size(), 8u);
+  EXPECT_EQ(places_.unmoved(), 0u);
+  expectPlaced({task(c_, true)});
+  EXPECT_EQ(places_.kept().size(), 2u);
+  EXPECT_EQ(places_.unmoved(), 0u);
+  expectPlaced({task(b_, true), task(c_, true)});
+  EXPECT_EQ(places_.kept().size(), 7u);
+  EXPECT_EQ(places_.unmoved(), 2u);
 }
 
 }  // namespace

@@ -26,13 +26,13 @@ TEST_F(StageSetTest, WhatGoesOnOneContextStaysOnAnother) {
   Context other;
   auto first = makeGlesStages(context());
   const auto second = makeGlesStages(other);
-  auto gone = first->upload(channelsOf(1.0f));
-  const auto kept = second->upload(channelsOf(2.0f));
+  auto gone = first->scenes->upload(channelsOf(1.0f));
+  const auto kept = second->scenes->upload(channelsOf(2.0f));
   // The other context is current now.
   gone.reset();
   first.reset();
   EXPECT_EQ(kept->download().range_px, channelsOf(2.0f).range_px);
-  EXPECT_EQ(second->median(channelsOf(3.0f).range_px), channelsOf(3.0f).range_px);
+  EXPECT_EQ(second->probe->median(channelsOf(3.0f).range_px), channelsOf(3.0f).range_px);
   other.checkGl("after another context's stages went");
 }
 

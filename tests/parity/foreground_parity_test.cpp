@@ -19,16 +19,17 @@ INSTANTIATE_TEST_SUITE_P(Cuda,
 TEST_P(ForegroundParity, MaskPlanesAndExtentAreTheHosts) {
   for (const test::ForegroundScene& scene : test::foregroundScenes()) {
     SCOPED_TRACE(scene.name);
-    const auto expected = host().foreground(scene.image, scene.task);
-    const auto actual = subject().foreground(scene.image, scene.task);
+    const auto expected = host().foreground->find(scene.image, scene.task);
+    const auto actual = subject().foreground->find(scene.image, scene.task);
     test::expectLike(actual->on_host, expected->on_host);
-    const LateralExtent wanted = host().extent(*expected->resident);
-    const LateralExtent extent = subject().extent(*actual->resident);
+    const LateralExtent wanted = host().foreground->extent(*expected->resident);
+    const LateralExtent extent = subject().foreground->extent(*actual->resident);
     EXPECT_EQ(extent.low, wanted.low);
     EXPECT_EQ(extent.high, wanted.high);
     // What a path found and what is uploaded to it are the same.
-    const auto uploaded = subject().uploadDepth(expected->on_host.depth, expected->on_host.mask);
-    EXPECT_EQ(subject().extent(*uploaded).low, wanted.low);
+    const auto uploaded =
+        subject().foreground->upload(expected->on_host.depth, expected->on_host.mask);
+    EXPECT_EQ(subject().foreground->extent(*uploaded).low, wanted.low);
   }
 }
 
@@ -37,8 +38,9 @@ TEST_P(ForegroundParity, ExtentIsThatOfMeasuredPixels) {
   const DepthImage image = test::foregroundScenes().front().image;
   const Image<std::uint8_t> all(image.camera.width, image.camera.height, 1);
   for (const Image<std::uint8_t>& keep : {Image<std::uint8_t>(), all}) {
-    const LateralExtent wanted = host().extent(*host().uploadDepth(image, keep));
-    const LateralExtent extent = subject().extent(*subject().uploadDepth(image, keep));
+    const LateralExtent wanted = host().foreground->extent(*host().foreground->upload(image, keep));
+    const LateralExtent extent =
+        subject().foreground->extent(*subject().foreground->upload(image, keep));
     EXPECT_FALSE(wanted.empty());
     EXPECT_EQ(extent.low, wanted.low);
     EXPECT_EQ(extent.high, wanted.high);

@@ -102,6 +102,15 @@ class Parity : public testing::TestWithParam<const char*> {
   std::unique_ptr<StageSet> host_;
 };
 
+/// One window of an image with a mask.
+inline std::unique_ptr<ResidentScene> prepared(StageSet& stages,
+                                               const DepthImage& image,
+                                               const Image<std::uint8_t>& keep,
+                                               const WindowTask& window) {
+  const std::unique_ptr<ResidentDepth> depth = stages.foreground->upload(image, keep);
+  return std::move(stages.scenes->prepare(*depth, {window}, {}).front());
+}
+
 /// The name of an instance is that of its subject.
 #define RP_PARITY_SUBJECTS(Suite)                                \
   INSTANTIATE_TEST_SUITE_P(,                                     \

@@ -17,8 +17,8 @@ class RefineParity : public test::Parity {
     const DepthImage& depth = scene_.depth;
     keep_ = Image<std::uint8_t>(depth.camera.width, depth.camera.height, 1);
     for (int y = 0; y < depth.camera.height; ++y) keep_.at(5, y) = 0;
-    at_host_ = host().uploadDepth(depth, keep_);
-    at_subject_ = subject().uploadDepth(depth, keep_);
+    at_host_ = host().foreground->upload(depth, keep_);
+    at_subject_ = subject().foreground->upload(depth, keep_);
     for (int view = 0; view < kViews; ++view) {
       points_.push_back(pointsAndRimOfView(scene_.object, view, 100 + 20 * view));
     }
@@ -26,7 +26,7 @@ class RefineParity : public test::Parity {
   /// The fixture's proof of work, for a path that aligns on the host.
   void TearDown() override {
     if (at_subject_ != nullptr && onGlsl())
-      static_cast<void>(subject().median(scene_.depth.depth_mm));
+      static_cast<void>(subject().probe->median(scene_.depth.depth_mm));
     at_subject_.reset();
     Parity::TearDown();
   }
@@ -65,8 +65,8 @@ TEST_P(RefineParity, PosesAreAlignedAlike) {
     tasks.push_back(
         {&points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, options});
   }
-  const std::vector<IcpResult> expected = host().align(*at_host_, tasks);
-  const std::vector<IcpResult> actual = subject().align(*at_subject_, tasks);
+  const std::vector<IcpResult> expected = host().refine->align(*at_host_, tasks);
+  const std::vector<IcpResult> actual = subject().refine->align(*at_subject_, tasks);
   ASSERT_EQ(actual.size(), tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     EXPECT_LT(test::farthestCorner(
@@ -80,8 +80,8 @@ TEST_P(RefineParity, PosesAreAlignedAlike) {
 TEST_P(RefineParity, PointsAreJudgedAlike) {
   std::vector<JudgeTask> tasks;
   for (const auto& points : points_) tasks.push_back({&points, scene_.truth, 900.0, {}});
-  const std::vector<CheckResult> expected = host().judge(*at_host_, tasks);
-  const std::vector<CheckResult> actual = subject().judge(*at_subject_, tasks);
+  const std::vector<CheckResult> expected = host().refine->judge(*at_host_, tasks);
+  const std::vector<CheckResult> actual = subject().refine->judge(*at_subject_, tasks);
   ASSERT_EQ(actual.size(), tasks.size());
   for (std::size_t i = 0; i < tasks.size(); ++i) {
     EXPECT_EQ(actual[i].pixels, expected[i].pixels);
@@ -100,14 +100,15 @@ TEST_P(RefineParity, KeptPointsAreThoseOfTheirTask) {
     std::vector<AlignTask> aligned;
     for (const auto& [at, kept] : choice) {
       const auto* points = &points_[at];
-      judged.push_back({points, scene_.truth, 900.0, {}, kept});
+      const std::uint64_t name = kept ? at + 1 : 0;
+      judged.push_back({points, scene_.truth, 900.0, {}, name});
       aligned.push_back(
-          {points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, {}, kept});
+          {points, scene_.rough, scene_.object.center_mm, scene_.object.radius_mm, {}, name});
     }
-    const std::vector<CheckResult> expected = host().judge(*at_host_, judged);
-    const std::vector<CheckResult> actual = subject().judge(*at_subject_, judged);
-    const std::vector<IcpResult> moved = host().align(*at_host_, aligned);
-    const std::vector<IcpResult> also_moved = subject().align(*at_subject_, aligned);
+    const std::vector<CheckResult> expected = host().refine->judge(*at_host_, judged);
+    const std::vector<CheckResult> actual = subject().refine->judge(*at_subject_, judged);
+    const std::vector<IcpResult> moved = host().refine->align(*at_host_, aligned);
+    const std::vector<IcpResult> also_moved = subject().refine->align(*at_subject_, aligned);
     for (std::size_t i = 0; i < choice.size(); ++i) {
       EXPECT_EQ(actual[i].pixels, expected[i].pixels);
       EXPECT_NEAR(actual[i].score, expected[i].score, test::kPointVerdict);
@@ -119,8 +120,9 @@ TEST_P(RefineParity, KeptPointsAreThoseOfTheirTask) {
 }
 
 TEST_P(RefineParity, RenderedSurfacesAreAlignedAlike) {
-  const std::vector<IcpResult> expected = host().alignSurfaces(*at_host_, renderTasks());
-  const std::vector<IcpResult> actual = subject().alignSurfaces(*at_subject_, renderTasks());
+  const std::vector<IcpResult> expected = host().refine->alignSurfaces(*at_host_, renderTasks());
+  const std::vector<IcpResult> actual =
+      subject().refine->alignSurfaces(*at_subject_, renderTasks());
   ASSERT_EQ(actual.size(), expected.size());
   for (std::size_t i = 0; i < expected.size(); ++i) {
     EXPECT_LT(test::farthestCorner(
@@ -130,8 +132,9 @@ TEST_P(RefineParity, RenderedSurfacesAreAlignedAlike) {
 }
 
 TEST_P(RefineParity, RenderedSurfacesAreJudgedAlike) {
-  const std::vector<CheckResult> expected = host().judgeSurfaces(*at_host_, renderTasks());
-  const std::vector<CheckResult> actual = subject().judgeSurfaces(*at_subject_, renderTasks());
+  const std::vector<CheckResult> expected = host().refine->judgeSurfaces(*at_host_, renderTasks());
+  const std::vector<CheckResult> actual =
+      subject().refine->judgeSurfaces(*at_subject_, renderTasks());
   ASSERT_EQ(actual.size(), expected.size());
   EXPECT_GT(expected[1].score, expected[0].score) << "the truth must be the better pose";
   for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -144,17 +147,19 @@ TEST_P(RefineParity, RenderedSurfacesAreJudgedAlike) {
 TEST_P(RefineParity, SurfacesWithoutPointsAreRefused) {
   std::vector<RenderTask> tasks = renderTasks();
   tasks.back().max_points = 0;
-  EXPECT_THROW(host().alignSurfaces(*at_host_, tasks), Error);
-  EXPECT_THROW(subject().alignSurfaces(*at_subject_, tasks), Error);
-  static_cast<void>(subject().median(scene_.depth.depth_mm));  // for the fixture's proof of work
+  EXPECT_THROW(host().refine->alignSurfaces(*at_host_, tasks), Error);
+  EXPECT_THROW(subject().refine->alignSurfaces(*at_subject_, tasks), Error);
+  static_cast<void>(
+      subject().probe->median(scene_.depth.depth_mm));  // for the fixture's proof of work
 }
 
 TEST_P(RefineParity, NothingToDoGivesNothing) {
-  EXPECT_TRUE(subject().align(*at_subject_, {}).empty());
-  EXPECT_TRUE(subject().judge(*at_subject_, {}).empty());
-  EXPECT_TRUE(subject().alignSurfaces(*at_subject_, {}).empty());
-  EXPECT_TRUE(subject().judgeSurfaces(*at_subject_, {}).empty());
-  static_cast<void>(subject().median(scene_.depth.depth_mm));  // for the fixture's proof of work
+  EXPECT_TRUE(subject().refine->align(*at_subject_, {}).empty());
+  EXPECT_TRUE(subject().refine->judge(*at_subject_, {}).empty());
+  EXPECT_TRUE(subject().refine->alignSurfaces(*at_subject_, {}).empty());
+  EXPECT_TRUE(subject().refine->judgeSurfaces(*at_subject_, {}).empty());
+  static_cast<void>(
+      subject().probe->median(scene_.depth.depth_mm));  // for the fixture's proof of work
 }
 
 TEST_P(RefineParity, AResidentDepthIsPreparedAsTheImageAndItsMask) {
@@ -164,8 +169,9 @@ TEST_P(RefineParity, AResidentDepthIsPreparedAsTheImageAndItsMask) {
   camera.pixel_mm = scene_.object.pixel_mm;
   const PixelBox region{10, 4, 150, 110};
   const SceneChannels expected =
-      host().prepare(scene_.depth, keep_, camera, region, {})->download();
-  const SceneChannels actual = subject().prepare(*at_subject_, camera, region, {})->download();
+      test::prepared(host(), scene_.depth, keep_, {camera, region})->download();
+  const SceneChannels actual =
+      subject().scenes->prepare(*at_subject_, {{camera, region}}, {}).front()->download();
   EXPECT_EQ(test::differences(actual.range_px, expected.range_px), 0);
   EXPECT_EQ(test::differences(actual.edges, expected.edges), 0);
 }

@@ -49,8 +49,8 @@ TEST_P(ResampleParity, RangeIsBitExact) {
       // Coarse to fine: many measurements in a pixel, then many pixels for a measurement.
       for (const double pixel_mm : {4.0, 1.1, 0.4, 0.05}) {
         const OrthoCamera camera = orthoCamera(image, 128, 101, pixel_mm, 0.11 * seed);
-        const Image<float> expected = host().resample(image, {}, camera);
-        EXPECT_EQ(differences(subject().resample(image, {}, camera), expected), 0)
+        const Image<float> expected = host().probe->resample(image, {}, camera);
+        EXPECT_EQ(differences(subject().probe->resample(image, {}, camera), expected), 0)
             << "seed " << seed << ", orthographic " << orthographic << ", pixel " << pixel_mm;
         for (const float range : expected) measured += range != 0.0f ? 1 : 0;
       }
@@ -66,19 +66,19 @@ TEST_P(ResampleParity, MaskedPixelsAreLeftOut) {
   for (int y = 10; y < 40; ++y) {
     for (int x = 0; x < 64; ++x) keep.at(x, y) = static_cast<std::uint8_t>((x + y) % 3);
   }
-  const Image<float> expected = host().resample(image, keep, camera);
-  EXPECT_EQ(differences(subject().resample(image, keep, camera), expected), 0);
-  EXPECT_GT(differences(expected, host().resample(image, {}, camera)), 0);
+  const Image<float> expected = host().probe->resample(image, keep, camera);
+  EXPECT_EQ(differences(subject().probe->resample(image, keep, camera), expected), 0);
+  EXPECT_GT(differences(expected, host().probe->resample(image, {}, camera)), 0);
   const Image<std::uint8_t> nothing(64, 48, 0);
-  EXPECT_EQ(subject().resample(image, nothing, camera), Image<float>(64, 64, 0.0f));
+  EXPECT_EQ(subject().probe->resample(image, nothing, camera), Image<float>(64, 64, 0.0f));
 }
 
 TEST_P(ResampleParity, PointsBehindTheCameraAreLeftOut) {
   const DepthImage image = depthImage(64, 48, 3, false);
   OrthoCamera camera = orthoCamera(image, 64, 64, 1.0, 0.0);
   camera.camera_from_ortho.translation_mm.z += 400.0;  // among the points
-  const Image<float> expected = host().resample(image, {}, camera);
-  EXPECT_EQ(differences(subject().resample(image, {}, camera), expected), 0);
+  const Image<float> expected = host().probe->resample(image, {}, camera);
+  EXPECT_EQ(differences(subject().probe->resample(image, {}, camera), expected), 0);
 }
 
 void expectSame(const SceneChannels& actual, const SceneChannels& expected) {
@@ -94,8 +94,8 @@ TEST_P(ResampleParity, PreparedChannelsAreThoseOfTheHost) {
   const DepthImage image = depthImage(120, 90, 5, false);
   const OrthoCamera camera = orthoCamera(image, 128, 128, 0.9, 0.15);
   for (const PixelBox region : {PixelBox{}, PixelBox{13, 9, 101, 77}}) {
-    const SceneChannels expected = host().prepare(image, {}, camera, region, {})->download();
-    const SceneChannels actual = subject().prepare(image, {}, camera, region, {})->download();
+    const SceneChannels expected = test::prepared(host(), image, {}, {camera, region})->download();
+    const SceneChannels actual = test::prepared(subject(), image, {}, {camera, region})->download();
     expectSame(actual, expected);
   }
 }
@@ -114,13 +114,13 @@ TEST_P(ResampleParity, WindowsPreparedInARowAreWholeWhenTheyAreReadAfterwards) {
     for (int i = 0; i < kWindows; ++i) {
       const int size = 64 + growth * i;
       cameras.push_back(orthoCamera(image, size, size, 0.8 + 0.05 * i, 0.02 * i));
-      expected.push_back(host().prepare(image, {}, cameras.back(), {}, {})->download());
+      expected.push_back(test::prepared(host(), image, {}, {cameras.back(), {}})->download());
     }
     for (int round = 0; round < kRounds; ++round) {
       std::vector<std::unique_ptr<ResidentScene>> scenes;
       scenes.reserve(cameras.size());
       for (const OrthoCamera& camera : cameras)
-        scenes.push_back(subject().prepare(image, {}, camera, {}, {}));
+        scenes.push_back(test::prepared(subject(), image, {}, {camera, {}}));
       for (std::size_t i = 0; i < scenes.size(); ++i) {
         SCOPED_TRACE("growth " + std::to_string(growth) + ", round " + std::to_string(round) +
                      ", window " + std::to_string(i));

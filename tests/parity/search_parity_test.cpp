@@ -84,9 +84,9 @@ TEST_P(SearchParity, ErrorSumsAgree) {
       }
       translations[0] = {-0.5f, 0.5f, 57.0f};
       const std::vector<ErrorTerms> expected =
-          host().errorTerms(object, window, translations, options);
+          host().probe->errorTerms(object, window, translations, options);
       const std::vector<ErrorTerms> actual =
-          subject().errorTerms(object, window, translations, options);
+          subject().probe->errorTerms(object, window, translations, options);
       ASSERT_EQ(actual.size(), expected.size());
       int counted = 0;
       for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -107,7 +107,7 @@ TEST_P(SearchParity, AShiftIsWorthTheWorstErrorJustBeyondItsLimit) {
   renderReferences(object);
   const SceneChannels window = windowWith(object, 0, 57.0f, 3);
   const std::vector<glm::vec3> edge = {{48.0f, -48.0f, 100.0f}, {48.001f, 0.0f, 100.0f}};
-  const std::vector<ErrorTerms> terms = subject().errorTerms(object, window, edge, {});
+  const std::vector<ErrorTerms> terms = subject().probe->errorTerms(object, window, edge, {});
   EXPECT_GT(terms[0].cover_count, 0.0f);
   EXPECT_EQ(terms[1].cover_count, 0.0f);
   EXPECT_EQ(errorValue(terms[1], 1.0f, 1.0f), kWorstError);
@@ -152,8 +152,8 @@ TEST_P(SearchParity, ReplayedSimplexStepsAreExact) {
       values.push_back(i % 50 == 0 ? 4.0f : glm::dot(gap, gap) + bumps + 0.01f);
       ++seen[static_cast<std::size_t>(states[at].phase)];
     }
-    const std::vector<SimplexState> expected = host().simplexSteps(states, values, options);
-    const std::vector<SimplexState> actual = subject().simplexSteps(states, values, options);
+    const std::vector<SimplexState> expected = host().probe->simplexSteps(states, values, options);
+    const std::vector<SimplexState> actual = subject().probe->simplexSteps(states, values, options);
     ASSERT_EQ(actual.size(), expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       ASSERT_EQ(actual[i].phase, expected[i].phase) << "step " << step << ", state " << i;
@@ -190,8 +190,8 @@ TEST_P(SearchParity, TheWholeSearchFindsTheSameErrors) {
   for (const int view : shown) {
     const SceneChannels window = windowWith(object, view, 20.0f + static_cast<float>(view), 40);
     seeds.push_back(window.range_px.at(64, 64));
-    on_host.push_back(host().upload(window));
-    on_device.push_back(subject().upload(window));
+    on_host.push_back(host().scenes->upload(window));
+    on_device.push_back(subject().scenes->upload(window));
   }
   const auto pointers = [](const auto& scenes) {
     std::vector<const ResidentScene*> result;
@@ -203,9 +203,9 @@ TEST_P(SearchParity, TheWholeSearchFindsTheSameErrors) {
     SearchOptions options;
     options.error.area = area;
     const std::vector<Hypothesis> expected =
-        host().search(object, pointers(on_host), seeds, options);
+        host().search->search(object, pointers(on_host), seeds, options);
     const std::vector<Hypothesis> actual =
-        subject().search(object, pointers(on_device), seeds, options);
+        subject().search->search(object, pointers(on_device), seeds, options);
     ASSERT_EQ(actual.size(), 2U * kViews);
     ASSERT_EQ(expected.size(), actual.size());
     int turned = 0;
@@ -232,10 +232,10 @@ TEST_P(SearchParity, TheSameSearchTwiceIsBitIdentical) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 20, 64, 31);
   renderReferences(object);
   const SceneChannels window = windowWith(object, 3, 30.0f, 1);
-  const std::unique_ptr<ResidentScene> scene = subject().upload(window);
+  const std::unique_ptr<ResidentScene> scene = subject().scenes->upload(window);
   const std::vector<float> seed = {window.range_px.at(64, 64)};
-  const std::vector<Hypothesis> first = subject().search(object, {scene.get()}, seed, {});
-  const std::vector<Hypothesis> second = subject().search(object, {scene.get()}, seed, {});
+  const std::vector<Hypothesis> first = subject().search->search(object, {scene.get()}, seed, {});
+  const std::vector<Hypothesis> second = subject().search->search(object, {scene.get()}, seed, {});
   for (std::size_t i = 0; i < first.size(); ++i) {
     EXPECT_EQ(first[i].error, second[i].error);
     EXPECT_EQ(first[i].translation_px, second[i].translation_px);
@@ -246,10 +246,10 @@ TEST_P(SearchParity, AWindowMayBeSearchedTwiceInOneCall) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 5, 64, 31);
   renderReferences(object);
   const SceneChannels window = windowWith(object, 2, 30.0f, 1);
-  const std::unique_ptr<ResidentScene> scene = subject().upload(window);
+  const std::unique_ptr<ResidentScene> scene = subject().scenes->upload(window);
   const float seed = window.range_px.at(64, 64);
   const std::vector<Hypothesis> found =
-      subject().search(object, {scene.get(), scene.get()}, {seed, seed}, {});
+      subject().search->search(object, {scene.get(), scene.get()}, {seed, seed}, {});
   const std::size_t views = object.views.size();
   ASSERT_EQ(found.size(), 2 * views);
   for (std::size_t i = 0; i < views; ++i) EXPECT_EQ(found[i].error, found[i + views].error);
@@ -259,9 +259,9 @@ TEST_P(SearchParity, ScenesOfAnotherPathAreRefused) {
   ReferenceObject object = test::objectOf(test::bracketBoxes(), 2, 64, 31);
   renderReferences(object);
   const SceneChannels window = windowWith(object, 0, 30.0f, 1);
-  const std::unique_ptr<ResidentScene> scene = host().upload(window);
-  EXPECT_THROW(subject().search(object, {scene.get()}, {90.0f}, {}), Error);
-  static_cast<void>(subject().median(window.range_px));  // for the fixture's proof of work
+  const std::unique_ptr<ResidentScene> scene = host().scenes->upload(window);
+  EXPECT_THROW(subject().search->search(object, {scene.get()}, {90.0f}, {}), Error);
+  static_cast<void>(subject().probe->median(window.range_px));  // for the fixture's proof of work
 }
 
 }  // namespace

@@ -97,8 +97,10 @@ TEST_P(SurfaceParity, DiffersOnlyAtBordersOfFaces) {
         const SurfaceWindow window =
             windowAround(camera, pose * sphere.center_mm, sphere.radius_mm, max_pixels);
         ASSERT_GT(window.width, 0);
-        const Image<SurfaceTexel> expected = host().renderSurface(mesh, camera, pose, window);
-        const Image<SurfaceTexel> actual = subject().renderSurface(mesh, camera, pose, window);
+        const Image<SurfaceTexel> expected =
+            host().probe->renderSurface(mesh, camera, pose, window);
+        const Image<SurfaceTexel> actual =
+            subject().probe->renderSurface(mesh, camera, pose, window);
         ASSERT_EQ(actual.width(), expected.width());
         ASSERT_EQ(actual.height(), expected.height());
         const Comparison found = compare(actual, expected);
@@ -120,15 +122,17 @@ TEST_P(SurfaceParity, TrianglesThatReachBehindTheCameraAreLeftOut) {
   Pose pose;
   pose.translation_mm = {0.0, 0.0, 400.0};
   const SurfaceWindow window = {0, 0, 640, 480, 1};
-  const Image<SurfaceTexel> expected = host().renderSurface(mesh, perspective(), pose, window);
-  const Image<SurfaceTexel> actual = subject().renderSurface(mesh, perspective(), pose, window);
+  const Image<SurfaceTexel> expected =
+      host().probe->renderSurface(mesh, perspective(), pose, window);
+  const Image<SurfaceTexel> actual =
+      subject().probe->renderSurface(mesh, perspective(), pose, window);
   const Comparison found = compare(actual, expected);
   EXPECT_GT(found.seen, 400);
   EXPECT_LE(found.different, std::ceil(test::kBorderShare * static_cast<float>(found.seen)));
   pose.translation_mm.z = -2000.0;
   const Image<SurfaceTexel> nothing(640, 480, SurfaceTexel(0.0f));
-  EXPECT_EQ(subject().renderSurface(mesh, perspective(), pose, window), nothing);
-  EXPECT_EQ(host().renderSurface(mesh, perspective(), pose, window), nothing);
+  EXPECT_EQ(subject().probe->renderSurface(mesh, perspective(), pose, window), nothing);
+  EXPECT_EQ(host().probe->renderSurface(mesh, perspective(), pose, window), nothing);
 }
 
 TEST_P(SurfaceParity, AChangedMeshAtTheSameAddressIsDrawnAnew) {
@@ -137,17 +141,18 @@ TEST_P(SurfaceParity, AChangedMeshAtTheSameAddressIsDrawnAnew) {
   Pose pose;
   pose.translation_mm = {0.0, 0.0, 400.0};
   const SurfaceWindow window = {260, 180, 200, 200, 1};
-  const Image<SurfaceTexel> before = subject().renderSurface(mesh, camera, pose, window);
+  const Image<SurfaceTexel> before = subject().probe->renderSurface(mesh, camera, pose, window);
   for (glm::vec3& vertex : mesh.vertices) vertex.z += 5.0f;
-  const Image<SurfaceTexel> after = subject().renderSurface(mesh, camera, pose, window);
-  EXPECT_EQ(compare(after, host().renderSurface(mesh, camera, pose, window)).inside, 0);
+  const Image<SurfaceTexel> after = subject().probe->renderSurface(mesh, camera, pose, window);
+  EXPECT_EQ(compare(after, host().probe->renderSurface(mesh, camera, pose, window)).inside, 0);
   EXPECT_GT(test::differences(before, after), 0);
 }
 
 TEST_P(SurfaceParity, AnEmptyWindowIsEmpty) {
   const Mesh mesh = test::meshOf(test::bracketBoxes());
-  EXPECT_TRUE(subject().renderSurface(mesh, perspective(), Pose{}, SurfaceWindow{}).empty());
-  static_cast<void>(subject().median(Image<float>(4, 4, 1.0f)));  // for the fixture's proof of work
+  EXPECT_TRUE(subject().probe->renderSurface(mesh, perspective(), Pose{}, SurfaceWindow{}).empty());
+  static_cast<void>(
+      subject().probe->median(Image<float>(4, 4, 1.0f)));  // for the fixture's proof of work
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ class RefinedPoseTest : public testing::Test {
   Candidate refined(Refine refine, const Pose& start, double rank) const {
     const Image<std::uint8_t> all(640, 480, 1);
     const std::unique_ptr<StageSet> stages = makeHostStages();
-    const std::unique_ptr<ResidentDepth> depth = stages->uploadDepth(image_, all);
+    const std::unique_ptr<ResidentDepth> depth = stages->foreground->upload(image_, all);
     const Enclosure nothing(image_, {}, std::nullopt, database_, kNoiseMm);
     std::vector<Candidate> candidates(1);
     candidates[0].pose = start;
@@ -99,7 +99,7 @@ TEST_F(RefinedPoseTest, AllPixelsTogetherKnowThePoseFarBetterThanOneIsMeasured) 
 TEST_F(RefinedPoseTest, ATwinThatIsBeyondHopeIsDropped) {
   const Image<std::uint8_t> all(640, 480, 1);
   const std::unique_ptr<StageSet> stages = makeHostStages();
-  const std::unique_ptr<ResidentDepth> depth = stages->uploadDepth(image_, all);
+  const std::unique_ptr<ResidentDepth> depth = stages->foreground->upload(image_, all);
   const Enclosure nothing(image_, {}, std::nullopt, database_, kNoiseMm);
   std::vector<Candidate> candidates(2);
   for (Candidate& candidate : candidates) candidate.rank = 9.0;  // that of the pose it is a twin of

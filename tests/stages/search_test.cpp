@@ -188,13 +188,13 @@ TEST(SearchTest, StagesOfTheHostPathAreTheHostFunctions) {
   const ReferenceObject object = renderedBracket(9);
   const SceneChannels window = windowWith(object, 2, {1, 2, 3}, 0.0f);
   const std::unique_ptr<StageSet> stages = makeHostStages();
-  const std::unique_ptr<ResidentScene> resident = stages->upload(window);
+  const std::unique_ptr<ResidentScene> resident = stages->scenes->upload(window);
   EXPECT_EQ(resident->download().range_px, window.range_px);
-  const auto found = stages->search(object, {resident.get()}, {kSeedRange}, {});
+  const auto found = stages->search->search(object, {resident.get()}, {kSeedRange}, {});
   const auto expected = searchIn(object, window);
   for (std::size_t i = 0; i < 9; ++i)
     EXPECT_EQ(found[i].translation_px, expected[i].translation_px);
-  EXPECT_EQ(stages->patches(*resident), host::patches(window.range_px, window.edges));
+  EXPECT_EQ(stages->scenes->patches(*resident), host::patches(window.range_px, window.edges));
 }
 
 /// Otherwise a process that goes from one database to the next searches with the views of the
@@ -203,15 +203,15 @@ TEST(SearchTest, AnotherObjectInTheSamePlaceIsSearchedWithItsOwnViews) {
   const std::unique_ptr<StageSet> stages = makeHostStages();
   ReferenceObject object = renderedBracket(9);
   const SceneChannels window = windowWith(object, 2, {1, 2, 3}, 0.0f);
-  const std::unique_ptr<ResidentScene> resident = stages->upload(window);
-  stages->search(object, {resident.get()}, {kSeedRange}, {});
+  const std::unique_ptr<ResidentScene> resident = stages->scenes->upload(window);
+  stages->search->search(object, {resident.get()}, {kSeedRange}, {});
   ReferenceObject other = renderedBracket(9);
   std::swap(other.views[0].rotation, other.views[2].rotation);
   host::renderReferences(other, {}, {});
   std::copy(other.atlas.begin(), other.atlas.end(), object.atlas.begin());
   other.atlas = std::move(object.atlas);  // the same memory, too
   object = std::move(other);
-  const auto found = stages->search(object, {resident.get()}, {kSeedRange}, {});
+  const auto found = stages->search->search(object, {resident.get()}, {kSeedRange}, {});
   const auto expected = searchIn(object, window);
   for (std::size_t i = 0; i < 9; ++i)
     EXPECT_EQ(found[i].translation_px, expected[i].translation_px) << "view " << i;

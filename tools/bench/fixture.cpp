@@ -26,11 +26,11 @@ struct Fixture::Views {
 };
 
 Fixture::Fixture() : host_(makeHostStages()) {
-  paths_.push_back({host_->name(), host_.get(), false});
+  paths_.push_back({host_->name, host_.get(), false});
   try {
     context_ = std::make_unique<gles::Context>();
     glsl_ = gles::makeGlesStages(*context_);
-    paths_.push_back({glsl_->name(), glsl_.get(), context_->info().software});
+    paths_.push_back({glsl_->name, glsl_.get(), context_->info().software});
   } catch (const Unavailable& error) {
     no_gles_reason_ = error.what();
   }

@@ -23,7 +23,7 @@ std::vector<Candidate> roughCandidates(Fixture& fixture, const RefineScene& scen
 void addCoarse(Fixture& fixture, const Path& path) {
   add("BM_CoarseRefinement/" + path.name, [&fixture, path](benchmark::State& state) {
     const std::unique_ptr<ResidentDepth> resident =
-        path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
+        path.stages->foreground->upload(fixture.demo(), fixture.trace(kViews).foreground);
     const Enclosure enclosure = fixture.enclosure(kViews);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), enclosure, *path.stages};
     const std::vector<Candidate> rough = roughCandidates(fixture, scene);
@@ -39,7 +39,7 @@ void addFine(Fixture& fixture, const Path& path) {
   add("BM_FineRefinementAndCheck/" + path.name, [&fixture, path](benchmark::State& state) {
     const ReferenceDatabase& database = fixture.database(kViews);
     const std::unique_ptr<ResidentDepth> resident =
-        path.stages->uploadDepth(fixture.demo(), fixture.trace(kViews).foreground);
+        path.stages->foreground->upload(fixture.demo(), fixture.trace(kViews).foreground);
     const Enclosure enclosure = fixture.enclosure(kViews);
     const RefineScene scene{fixture.demo(), *resident, fixture.noiseMm(), enclosure, *path.stages};
     const std::vector<Candidate> coarse = refineCoarsely(

@@ -28,7 +28,7 @@ double evaluatedPixels(StageSet& host,
     for (const SimplexState& s : states)
       candidates.emplace_back(s.candidate.x, s.candidate.y, s.candidate.z);
     const std::vector<ErrorTerms> terms =
-        host.errorTerms(object, trace.windows[window], candidates, options.error);
+        host.probe->errorTerms(object, trace.windows[window], candidates, options.error);
     running = false;
     for (std::size_t i = 0; i < states.size(); ++i) {
       if (states[i].phase == static_cast<int>(SimplexPhase::kDone)) continue;
@@ -63,13 +63,13 @@ void addSearch(Fixture& fixture, const Path& path, int views, int starts, int it
     std::vector<float> seeds;
     double pixels = 0.0;
     for (std::size_t i = 0; i < static_cast<std::size_t>(starts); ++i) {
-      scenes.push_back(path.stages->upload(trace.windows[i]));
+      scenes.push_back(path.stages->scenes->upload(trace.windows[i]));
       windows.push_back(scenes.back().get());
       seeds.push_back(trace.seed_range_px[i]);
       pixels += evaluatedPixels(*fixture.paths().front().stages, object, trace, i, options);
     }
     for (auto _ : state) {
-      benchmark::DoNotOptimize(path.stages->search(object, windows, seeds, options));
+      benchmark::DoNotOptimize(path.stages->search->search(object, windows, seeds, options));
     }
     rate(state, "evaluated_pixels", pixels);
     rate(state, "simplexes", static_cast<double>(views) * starts);

@@ -18,7 +18,7 @@ void addForeground(Fixture& fixture, const Path& path) {
   add("BM_Foreground/" + path.name + "/640x480", [&fixture, path](benchmark::State& state) {
     const DepthImage& depth = fixture.demo();
     const ForegroundTask task = foregroundTaskFor(fixture.database(kViews), std::nullopt);
-    for (auto _ : state) benchmark::DoNotOptimize(path.stages->foreground(depth, task));
+    for (auto _ : state) benchmark::DoNotOptimize(path.stages->foreground->find(depth, task));
     rate(state, "pixels", static_cast<double>(depth.depth_mm.size()));
   });
 }
@@ -40,17 +40,15 @@ void addWindows(Fixture& fixture, const Path& path) {
         const ChannelOptions options = channelOptionsOf(fixture.database(kViews).objects.front());
         double pixels = 0.0;
         for (const SceneChannels& window : trace.windows) pixels += pixelsOf(window.camera);
+        std::vector<WindowTask> tasks;
+        for (std::size_t i = 0; i < trace.windows.size(); ++i)
+          tasks.push_back({trace.windows[i].camera, trace.window_regions[i]});
         for (auto _ : state) {
-          for (std::size_t i = 0; i < trace.windows.size(); ++i) {
-            // Downloaded, so that a device has finished.
-            benchmark::DoNotOptimize(path.stages
-                                         ->prepare(fixture.demo(),
-                                                   fixture.trace(kViews).foreground,
-                                                   trace.windows[i].camera,
-                                                   trace.window_regions[i],
-                                                   options)
-                                         ->download());
-          }
+          const std::unique_ptr<ResidentDepth> depth =
+              path.stages->foreground->upload(fixture.demo(), fixture.trace(kViews).foreground);
+          // Downloaded, so that a device has finished.
+          for (const auto& window : path.stages->scenes->prepare(*depth, tasks, options))
+            benchmark::DoNotOptimize(window->download());
         }
         rate(state, "pixels", pixels);
       });
@@ -63,21 +61,21 @@ void registerStageBenchmarks(Fixture& fixture) {
     addForeground(fixture, path);
     addSceneStage(
         fixture, path, "Resample", [&fixture](StageSet& stages, const ObjectTrace& trace) {
-          return stages.resample(
+          return stages.probe->resample(
               fixture.demo(), fixture.trace(kViews).foreground, trace.scene.camera);
         });
     addSceneStage(fixture, path, "Median", [](StageSet& stages, const ObjectTrace& trace) {
-      return stages.median(trace.raw_range_px);
+      return stages.probe->median(trace.raw_range_px);
     });
     addSceneStage(fixture, path, "Edges", [](StageSet& stages, const ObjectTrace& trace) {
-      return stages.edges(trace.scene.range_px, trace.scene_options.edgeThresholdPx());
+      return stages.probe->edges(trace.scene.range_px, trace.scene_options.edgeThresholdPx());
     });
     addSceneStage(fixture, path, "Edt", [](StageSet& stages, const ObjectTrace& trace) {
-      return stages.distance(
+      return stages.probe->distance(
           trace.scene.range_px, trace.scene.edges, trace.scene_options.edt_passes);
     });
     addSceneStage(fixture, path, "Patches", [](StageSet& stages, const ObjectTrace& trace) {
-      return stages.patches(trace.scene.range_px, trace.scene.edges);
+      return stages.probe->patches(trace.scene.range_px, trace.scene.edges);
     });
     addWindows(fixture, path);
   }

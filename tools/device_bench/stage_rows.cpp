@@ -37,19 +37,19 @@ class StageRows {
     // Three digits of the noise, lost pixels, mask; planes are tried on samples.
     const ForegroundTask task = foregroundTaskFor(load_.database, std::nullopt);
     add("foreground", imageWork(load_.depth.depth_mm, 29.0, 30.0), [&] {
-      stages.foreground(load_.depth, task);
+      stages.foreground->find(load_.depth, task);
     });
     add("resample", imageWork(load_.depth.depth_mm, 4.0, 40.0), [&] {
-      stages.resample(load_.depth, load_.trace.foreground, trace.scene.camera);
+      stages.probe->resample(load_.depth, load_.trace.foreground, trace.scene.camera);
     });
-    add("median", imageWork(range, 8.0, 38.0), [&] { stages.median(trace.raw_range_px); });
+    add("median", imageWork(range, 8.0, 38.0), [&] { stages.probe->median(trace.raw_range_px); });
     add("edges", imageWork(range, 8.0, 24.0), [&] {
-      stages.edges(range, trace.scene_options.edgeThresholdPx());
+      stages.probe->edges(range, trace.scene_options.edgeThresholdPx());
     });
     add("distance", imageWork(range, 12.0, 8.0 * 7.0 * passes), [&] {
-      stages.distance(range, edges, passes);
+      stages.probe->distance(range, edges, passes);
     });
-    add("patches", imageWork(range, 12.0, 0.0), [&] { stages.patches(range, edges); });
+    add("patches", imageWork(range, 12.0, 0.0), [&] { stages.probe->patches(range, edges); });
   }
 
   void scene() {
@@ -57,16 +57,16 @@ class StageRows {
     StageSet& stages = *path_.stages;
     const ObjectTrace& trace = load_.first();
     add("depth image to device", imageWork(load_.depth.depth_mm, 9.0, 0.0), [&] {
-      stages.uploadDepth(load_.depth, load_.trace.foreground);
+      stages.foreground->upload(load_.depth, load_.trace.foreground);
       if (path_.wait != nullptr) path_.wait();
     });
-    const auto depth = stages.uploadDepth(load_.depth, load_.trace.foreground);
+    const auto depth = stages.foreground->upload(load_.depth, load_.trace.foreground);
+    std::vector<WindowTask> tasks;
+    for (std::size_t i = 0; i < trace.windows.size(); ++i)
+      tasks.push_back({trace.windows[i].camera, trace.window_regions[i]});
     add("windows of all starts", {}, [&] {
-      for (std::size_t i = 0; i < trace.windows.size(); ++i) {
-        // Downloaded, so that a device has finished.
-        stages.prepare(*depth, trace.windows[i].camera, trace.window_regions[i], options)
-            ->download();
-      }
+      // Downloaded, so that a device has finished.
+      for (const auto& window : stages.scenes->prepare(*depth, tasks, options)) window->download();
     });
   }
 
@@ -74,24 +74,26 @@ class StageRows {
     std::vector<std::unique_ptr<ResidentScene>> scenes;
     std::vector<const ResidentScene*> windows;
     for (const SceneChannels& window : load_.first().windows) {
-      scenes.push_back(path_.stages->upload(window));
+      scenes.push_back(path_.stages->scenes->upload(window));
       windows.push_back(scenes.back().get());
     }
     add("rough search", searchWork(load_, *host_), [&] {
-      path_.stages->search(
+      path_.stages->search->search(
           load_.object(), windows, load_.first().seed_range_px, load_.first().search);
     });
   }
 
   void refinement() {
     StageSet& stages = *path_.stages;
-    const auto depth = stages.uploadDepth(load_.depth, load_.trace.foreground);
+    const auto depth = stages.foreground->upload(load_.depth, load_.trace.foreground);
     add("alignment of hypotheses", alignWork(load_), [&] {
-      stages.align(*depth, load_.alignments);
+      stages.refine->align(*depth, load_.alignments);
     });
-    add("verdict on hypotheses", {}, [&] { stages.judge(*depth, load_.verdicts); });
-    add("rendering and alignment", {}, [&] { stages.alignSurfaces(*depth, load_.surfaces); });
-    add("rendering and verdict", {}, [&] { stages.judgeSurfaces(*depth, load_.surfaces); });
+    add("verdict on hypotheses", {}, [&] { stages.refine->judge(*depth, load_.verdicts); });
+    add("rendering and alignment", {}, [&] {
+      stages.refine->alignSurfaces(*depth, load_.surfaces);
+    });
+    add("rendering and verdict", {}, [&] { stages.refine->judgeSurfaces(*depth, load_.surfaces); });
   }
 
   void frame() {

@@ -114,7 +114,7 @@ Work searchWork(const Workload& load, StageSet& host) {
       for (const SimplexState& s : states)
         candidates.emplace_back(s.candidate.x, s.candidate.y, s.candidate.z);
       const std::vector<ErrorTerms> terms =
-          host.errorTerms(object, load.first().windows[window], candidates, options.error);
+          host.probe->errorTerms(object, load.first().windows[window], candidates, options.error);
       for (std::size_t i = 0; i < states.size(); ++i) {
         if (!running(states[i])) continue;
         const float area = object.views[i].area_px;

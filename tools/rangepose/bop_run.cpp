@@ -119,7 +119,7 @@ RunFacts factsOf(const BopArguments& arguments,
                  const StageSet& stages,
                  int images) {
   return {{"version", RP_VERSION},
-          {"path", stages.name()},
+          {"path", stages.name},
           {"database", fmt::format("{:016x}", databaseChecksum(database_file))},
           {"data set", std::filesystem::weakly_canonical(arguments.folder).string()},
           {"split", arguments.split},
@@ -147,7 +147,7 @@ int runBop(const BopArguments& arguments,
   BopRun run(data, database, options, stages, journal);
   run.all();
   journal.finish();
-  std::cout << "path " << stages.name() << ": " << run.summary();
+  std::cout << "path " << stages.name << ": " << run.summary();
   return run.failures() > 0 ? kFailed : kDone;
 }
 

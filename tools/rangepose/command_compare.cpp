@@ -74,7 +74,8 @@ Json comparisonJson(const Comparison& comparison) {
           {"chained", stagesJson(comparison.chained)},
           {"verdict", comparison.verdict},
           {"draws", comparison.subject_work.draws},
-          {"launches", comparison.subject_work.launches}};
+          {"launches", comparison.subject_work.launches},
+          {"left_to_host", comparison.left_to_host}};
 }
 
 void checkUsage(const CompareArguments& arguments) {

@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "gles/context.h"
 #include "gles/egl_display.h"
+#include "gles/stage_set_gles.h"
 #include "rangepose/command.h"
 #include "rangepose/cuda_options.h"
 
@@ -28,6 +29,7 @@ struct CudaFindings {
   cuda::Status status;
   std::string interop;  ///< in use, and why others are not; empty: the path does not open
   std::string failure;  ///< why it does not open; empty: it does
+  std::string left_to_host;
 };
 
 CudaFindings findCuda(const cuda::PathOptions& options) {
@@ -36,6 +38,7 @@ CudaFindings findCuda(const cuda::PathOptions& options) {
   try {
     const cuda::Path path = cuda::openPath(options);
     found.interop = std::string(cuda::nameOf(path.interop)) + ": " + path.interop_note;
+    found.left_to_host = path.stages->left_to_host;
   } catch (const Error& error) {
     found.failure = error.what();
   }
@@ -162,14 +165,22 @@ void printMissing(const std::string& no_context,
   for (const std::string& line : lines) std::cout << "  " << line << '\n';
 }
 
+/// What a path that works leaves to the host.
+std::string withRest(const std::string& works, const std::string& left_to_host) {
+  return left_to_host.empty() ? works : works + "; the host does its " + left_to_host;
+}
+
 void printPaths(const gles::ContextInfo* info, const CudaFindings& cuda) {
   std::cout << "paths\n";
   row("host", "yes");
-  row("glsl", info == nullptr ? "no" : info->software ? "yes, in software: slow" : "yes");
+  row("glsl",
+      info == nullptr
+          ? "no"
+          : withRest(info->software ? "yes, in software: slow" : "yes", gles::kLeftToHost));
   row("cuda",
-      !cuda.failure.empty()  ? "no"
-      : cuda.status.emulated ? "yes, emulated: for tests"
-                             : "yes");
+      !cuda.failure.empty()
+          ? "no"
+          : withRest(cuda.status.emulated ? "yes, emulated: for tests" : "yes", cuda.left_to_host));
   const bool gpu = info != nullptr && !info->software;
   row("--path auto",
       fmt::format("takes {}; build renders by {}",

@@ -142,7 +142,7 @@ int estimateScene(const EstimateArguments& arguments,
   report(arguments,
          depth,
          estimate,
-         {database, stages.name(), arguments.scene.file(), options.min_score, picks, found});
+         {database, stages.name, arguments.scene.file(), options.min_score, picks, found});
   return kDone;
 }
 

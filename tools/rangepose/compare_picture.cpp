@@ -24,7 +24,7 @@ Image<float> surfaceOf(StageSet& stages,
   const SurfaceWindow window =
       windowAround(depth.camera, best.pose * object.center_mm, object.radius_mm, all);
   const Image<SurfaceTexel> surface =
-      stages.renderSurface(object.mesh, depth.camera, best.pose, window);
+      stages.probe->renderSurface(object.mesh, depth.camera, best.pose, window);
   Image<float> depth_mm(surface.width(), surface.height());
   std::transform(surface.begin(), surface.end(), depth_mm.begin(), [](const SurfaceTexel& texel) {
     return texel.w;
@@ -111,7 +111,7 @@ SeenPath seeOnPath(StageSet& stages,
                    const EstimateOptions& options,
                    const SeenPath* reference) {
   SeenPath seen;
-  seen.path = stages.name();
+  seen.path = stages.name;
   seen.estimate = estimatePoses(depth, bin, database, options, stages, &seen.trace);
   const Estimate& rendered = reference != nullptr ? reference->estimate : seen.estimate;
   seen.surface_mm = surfaceOf(stages, depth, database, rendered);
