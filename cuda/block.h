@@ -26,7 +26,7 @@
 #define RP_BODY inline
 #endif
 
-#include "core/device.h"
+#include "core/host_device.h"
 
 namespace rangepose::cuda {
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "core/device.h"
+#include "core/host_device.h"
 #include "stages/search.h"
 
 namespace rangepose::cuda {

@@ -55,7 +55,8 @@ RP_BODY ErrorTerms added(const ErrorTerms& a, const ErrorTerms& b) {
 }
 
 /// One texel of the log-step reduction (paper Fig. 9): four of the level before. `previous(x, y)`
-/// reads a tile of that level, `pitch` texels wide. As in glsl/reduce.frag the targets shrink.
+/// reads a tile of that level, `pitch` texels wide. The targets shrink, as in glsl/reduce.frag,
+/// which adds sixteen.
 template <typename Previous>
 RP_BODY ErrorTerms reducePixel(int x, int y, int pitch, const Previous& previous) {
   const bool right = 2 * x + 1 < pitch;

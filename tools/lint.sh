@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# clang-tidy over the sources of build/release (src, tools, tests, cuda); arguments limit it to matching paths,
-# e.g. tools/lint.sh src/sim. Uses the checks of .clang-tidy.
+# clang-tidy over the sources of build/release (src, tools, tests, cuda) by the checks of .clang-tidy. Arguments limit it:
+#   tools/lint.sh src/sim            paths that have this in them
+#   tools/lint.sh --since COMMIT     what differs from there: sources, and those beside changed headers
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -18,7 +19,15 @@ mapfile -t files < <(
   sed -n 's/^ *"file": "\(.*\)".*$/\1/p' build/release/compile_commands.json | sort -u |
     grep -E "$pattern" || true
 )
-if [[ $# -gt 0 ]]; then
+if [[ ${1:-} == --since ]]; then
+  changed=$(git diff --name-only --diff-filter=d "${2:?tools/lint.sh: --since needs a commit}" -- '*.cpp' '*.h')
+  mapfile -t files < <(
+    printf '%s\n' "${files[@]}" | grep -xF "$(sed "s#^#$root/#; s#\.h\$#.cpp#" <<< "$changed")" || true)
+  if [[ ${#files[@]} -eq 0 ]]; then
+    echo "lint: no source differs from $2"
+    exit 0
+  fi
+elif [[ $# -gt 0 ]]; then
   mapfile -t files < <(printf '%s\n' "${files[@]}" | grep -F "$(printf '%s\n' "$@")" || true)
 fi
 if [[ ${#files[@]} -eq 0 ]]; then

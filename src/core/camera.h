@@ -1,8 +1,8 @@
 // The depth camera: pinhole (no distortion) or orthographic, and the image it took.
 #pragma once
 
-#include "core/device.h"
 #include "core/glm.h"
+#include "core/host_device.h"
 #include "core/image.h"
 #include "core/pose.h"
 
@@ -20,8 +20,8 @@ struct Camera {
   bool orthographic = false;   ///< parallel rays along z
   double pixel_size_mm = 0.0;  ///< width of a pixel of an orthographic scan [mm]
 
-  double error_mm = 0.0;       ///< standard deviation of a depth, where known: tolerances go by it;
-                               ///< 0: it is measured in each image [mm]
+  double error_mm = 0.0;  ///< standard deviation of a depth, where known: tolerances go by it;
+                          ///< 0: it is measured in each image [mm]
 
   /// The point seen at pixel (u, v) at depth z_mm (distance along z, not along the ray).
   RP_HD glm::dvec3 unproject(double u, double v, double z_mm) const {

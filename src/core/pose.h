@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "core/device.h"
 #include "core/glm.h"
+#include "core/host_device.h"
 
 namespace rangepose {
 

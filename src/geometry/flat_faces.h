@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "core/device.h"
 #include "core/glm.h"
+#include "core/host_device.h"
 #include "geometry/mesh.h"
 
 namespace rangepose {

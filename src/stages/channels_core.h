@@ -2,15 +2,13 @@
 // Twins: glsl/median.frag, glsl/edges.frag.
 #pragma once
 
-#include "core/device.h"
+#include "core/host_device.h"
 #include "stages/lanes.h"
 
 namespace rangepose {
 
 namespace channels_detail {
 
-RP_HD float smaller(float a, float b) { return b < a ? b : a; }
-RP_HD float larger(float a, float b) { return a < b ? b : a; }
 RP_HD void order(float& low, float& high) {
   const float least = smaller(low, high);
   high = larger(low, high);
@@ -72,7 +70,7 @@ RP_HD float stepOfNine(const float (&p)[9], float threshold_px) {
 /// jump is where a sensor smears it.
 RP_HD float edgeOfSteps(const float (&steps)[9]) {
   float most = 0.0f;
-  for (int i = 0; i < 9; ++i) most = channels_detail::larger(most, steps[i]);
+  for (int i = 0; i < 9; ++i) most = larger(most, steps[i]);
   return steps[4] != kLevel && most == kJump ? 1.0f : 0.0f;
 }
 

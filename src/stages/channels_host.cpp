@@ -3,10 +3,21 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "stages/channels_core.h"
 #include "stages/edt_core.h"
 #include "stages/lanes.h"
+
+namespace rangepose {
+
+void ChannelOptions::check() const {
+  RP_CHECK(edge_fraction > 0.0f && edge_fraction < 1.0f, "edge_fraction must lie in (0, 1)");
+  RP_CHECK(image_width_px >= 8 && image_width_px <= 256, "image_width_px must lie in 8..256");
+  RP_CHECK(edt_passes >= 1 && edt_passes <= 255, "edt_passes must lie in 1..255");
+}
+
+}  // namespace rangepose
 
 namespace rangepose::host {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/camera.h"
-#include "core/device.h"
+#include "core/host_device.h"
 #include "stages/posed_points_core.h"
 
 namespace rangepose {

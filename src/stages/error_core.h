@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "core/device.h"
+#include "core/host_device.h"
+#include "stages/lanes.h"
 
 namespace rangepose {
 
@@ -49,12 +50,14 @@ struct ErrorOptions {
 
 /// The four sums of Eq. 2, kept apart until the end so that back-ends can be compared before they
 /// are divided. Layout of an RGBA32F texel.
-struct ErrorTerms {
-  float cover_sum = 0.0f;     ///< sum f |EDT_I - EDT_R| [px]
-  float cover_count = 0.0f;   ///< sum f
-  float range_sum = 0.0f;     ///< sum c d [px]
-  float range_weight = 0.0f;  ///< sum c
+template <typename V>
+struct ErrorTermsOf {
+  V cover_sum{};     ///< sum f |EDT_I - EDT_R| [px]
+  V cover_count{};   ///< sum f
+  V range_sum{};     ///< sum c d [px]
+  V range_weight{};  ///< sum c
 };
+using ErrorTerms = ErrorTermsOf<float>;
 
 /// Error of a translation at which nothing can be compared (outside of the window).
 inline constexpr float kWorstError = 1.0e6f;
@@ -72,22 +75,23 @@ RP_HD RangeRule rangeRule(float range_limit, HolePolicy holes) {
           holes == HolePolicy::kIgnore ? 0.0f : 1.0f};
 }
 
-/// One reference pixel against one scene pixel. `reference_*` as in ReferenceTexel, the cosine not
-/// negative; `predicted` is the range that the reference has after the translation [px]. Without
-/// branches: the innermost loop of the fused search.
-RP_HD ErrorTerms errorOfPixel(float reference_distance,
-                              float reference_cos,
-                              float predicted,
-                              float scene_distance,
-                              float scene_range,
-                              const RangeRule& rule) {
-  const bool covers = reference_distance > 0.0f;
-  const bool hole = scene_range == 0.0f;
-  const float aside = std::fabs(scene_distance - reference_distance);
-  const float off = std::fmin(std::fabs(scene_range - predicted), rule.limit);
-  const float gap = hole ? rule.hole_gap : off;
-  const float weight = hole ? reference_cos * rule.hole_weight : reference_cos;
-  return {covers ? aside : 0.0f, covers ? 1.0f : 0.0f, weight * gap, weight};
+/// One reference pixel (V = float) or eight (Float8) against those of the scene, Eq. 3 to 6.
+/// `reference_*` as in ReferenceTexel, the cosine not negative; `predicted` is the range that the
+/// reference has after the translation [px]. Without branches: the innermost loop of the search.
+template <typename V>
+RP_LANES ErrorTermsOf<V> errorOfPixel(const V& reference_distance,
+                                      const V& reference_cos,
+                                      const V& predicted,
+                                      const V& scene_distance,
+                                      const V& scene_range,
+                                      const RangeRule& rule) {
+  const auto covers = reference_distance > 0.0f;
+  const auto hole = scene_range == 0.0f;
+  const V aside = magnitude(scene_distance - reference_distance);
+  const V off = smaller(magnitude(scene_range - predicted), all<V>(rule.limit));
+  const V gap = pick(hole, all<V>(rule.hole_gap), off);
+  const V weight = pick(hole, reference_cos * rule.hole_weight, reference_cos);
+  return {pick(covers, aside, V{}), pick(covers, all<V>(1.0f), V{}), weight * gap, weight};
 }
 
 /// r_i of Eq. 1.

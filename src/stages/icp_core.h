@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/camera.h"
-#include "core/device.h"
+#include "core/host_device.h"
 #include "core/pose.h"
 #include "stages/lanes.h"
 

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "core/device.h"
+#include "core/host_device.h"
 
 #ifdef __CUDACC__
 #define RP_LANES __host__ __device__ inline
@@ -40,6 +40,22 @@ RP_LANES int truncated(float value) { return static_cast<int>(value); }
 RP_LANES float asFloat(int value) { return static_cast<float>(value); }
 RP_LANES float squareRoot(float value) { return std::sqrt(value); }
 RP_LANES float magnitude(float value) { return std::fabs(value); }
+/// The numbers must not be NaN: a device has one instruction, and the host a comparison that it can
+/// do for eight at a time.
+RP_LANES float smaller(float a, float b) {
+#ifdef __CUDA_ARCH__
+  return fminf(a, b);
+#else
+  return b < a ? b : a;
+#endif
+}
+RP_LANES float larger(float a, float b) {
+#ifdef __CUDA_ARCH__
+  return fmaxf(a, b);
+#else
+  return a < b ? b : a;
+#endif
+}
 RP_LANES bool both(bool a, bool b) { return a && b; }
 RP_LANES bool either(bool a, bool b) { return a || b; }
 
@@ -77,6 +93,7 @@ RP_LANES Float8 magnitude(const Float8& value) {
   std::memcpy(&result, &bits, sizeof result);
   return result;
 }
+RP_LANES Float8 smaller(const Float8& a, const Float8& b) { return b < a ? b : a; }
 RP_LANES Int8 both(const Int8& a, const Int8& b) { return a & b; }
 RP_LANES Int8 either(const Int8& a, const Int8& b) { return a | b; }
 

@@ -1,7 +1,7 @@
 // Second differences along a row of depth: what noise is measured by. Shared by host and CUDA.
 #pragma once
 
-#include "core/device.h"
+#include "core/host_device.h"
 
 namespace rangepose {
 

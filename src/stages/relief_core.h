@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "core/device.h"
+#include "core/host_device.h"
 
 namespace rangepose {
 

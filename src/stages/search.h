@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "core/device.h"
 #include "core/glm.h"
+#include "core/host_device.h"
 #include "stages/error_core.h"
 #include "stages/reference.h"
 #include "stages/simplex_core.h"

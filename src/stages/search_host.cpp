@@ -57,8 +57,7 @@ struct Evaluation {
   float shift_z;
   float cover_count;
   float range_weight;
-  float range_limit;
-  HolePolicy holes;
+  RangeRule rule;
 };
 
 /// Sums of Eq. 3 and 5; the weights are those of the pixels that count.
@@ -66,26 +65,22 @@ RP_SIMD_CLONES ErrorTerms sumErrors(const Evaluation& e) {
   Float8 cover{};
   Float8 range{};
   Float8 kept{};
-  const Float8 limit = splat8(e.range_limit);
-  const Float8 zero{};
-  const Float8 over_hole = e.holes == HolePolicy::kLimit ? limit : zero;
   for (std::size_t i = 0; i < e.block_count; ++i) {
     const PackedViews::Block& block = e.blocks[i];
     const int at = block.v * e.stride + block.u;
-    const Float8 reference_distance = load8(e.reference_distance + block.offset);
-    const Float8 cosine = load8(e.reference_cosine + block.offset);
-    const Float8 seen = load8(e.scene_range + at);
-    const Float8 gap = magnitude(load8(e.scene_distance + at) - reference_distance);
-    cover += reference_distance > zero ? gap : zero;
-    Float8 depth = magnitude(seen - (load8(e.reference_range + block.offset) + e.shift_z));
-    depth = depth > limit ? limit : depth;
-    depth = seen == zero ? over_hole : depth;
-    range += cosine * depth;
-    kept += seen == zero ? zero : cosine;
+    const auto terms = errorOfPixel<Float8>(load8(e.reference_distance + block.offset),
+                                            load8(e.reference_cosine + block.offset),
+                                            load8(e.reference_range + block.offset) + e.shift_z,
+                                            load8(e.scene_distance + at),
+                                            load8(e.scene_range + at),
+                                            e.rule);
+    cover += terms.cover_sum;
+    range += terms.range_sum;
+    kept += terms.range_weight;
   }
   // What is kept is added up, not what is lost taken away: over nothing but holes it must be
   // exactly 0.
-  const float weight = e.holes == HolePolicy::kIgnore ? sum8(kept) : e.range_weight;
+  const float weight = e.rule.hole_weight == 0.0f ? sum8(kept) : e.range_weight;
   return {sum8(cover), e.cover_count, sum8(range), weight};
 }
 
@@ -112,8 +107,7 @@ ErrorTerms termsAt(const PackedViews& packed,
                                  translation.z - static_cast<float>(size),
                                  rows.cover_count,
                                  rows.range_weight,
-                                 options.range_limit_px,
-                                 options.holes};
+                                 rangeRule(options.range_limit_px, options.holes)};
   return sumErrors(evaluation);
 }
 

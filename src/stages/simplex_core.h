@@ -3,7 +3,7 @@
 // run thousands of searches in lockstep. Twin: glsl/simplex_step.frag.
 #pragma once
 
-#include "core/device.h"
+#include "core/host_device.h"
 
 namespace rangepose {
 

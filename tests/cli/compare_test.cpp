@@ -42,6 +42,8 @@ TEST_F(CompareTest, ShowsEachStageOfBothPaths) {
   EXPECT_EQ(comparison.at("reference"), "host");
   EXPECT_EQ(comparison.at("subject"), "glsl");
   EXPECT_GT(comparison.at("draws").get<int>(), 0);
+  EXPECT_EQ(comparison.at("left_to_host"), "foreground, alignment, verdicts");
+  EXPECT_THAT(text.out, HasSubstr("glsl leaves to the host: foreground, alignment, verdicts\n"));
   ASSERT_GE(comparison.at("isolated").size(), 5U);
   for (const json& stage : comparison.at("isolated")) {
     EXPECT_GT(stage.at("total").get<int>(), 0) << stage;

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "cli/cli_fixture.h"
+#include "support/backends.h"
 
 namespace rangepose::test {
 namespace {
@@ -20,7 +21,16 @@ TEST_F(DoctorTest, NamesHostAndCuda) {
                             "the host emulates: for tests)\n"));
   EXPECT_THAT(result.out, ContainsRegex("NVIDIA driver +(not )?found"));
   EXPECT_THAT(result.out, ContainsRegex("host +yes\n"));
-  EXPECT_THAT(result.out, ContainsRegex("--path auto +takes (host|glsl|cuda)"));
+  EXPECT_THAT(result.out,
+              ContainsRegex("--path auto +takes (host|glsl|cuda); build renders by host"));
+}
+
+TEST_F(DoctorTest, SaysWhatThePathsLeaveToTheHost) {
+  const RunResult result = run({"doctor"});
+  if (result.out.find("glsl              no") != std::string::npos && !backendRequired("gles"))
+    GTEST_SKIP() << "no OpenGL ES";
+  EXPECT_THAT(result.out,
+              ContainsRegex("glsl +yes.*; the host does its foreground, alignment, verdicts\n"));
 }
 
 TEST_F(DoctorTest, WithoutEglHostWorksAndTheRemedyIsNamed) {

@@ -105,8 +105,14 @@ TEST_P(ImageParity, UploadedScenesComeBackAndGiveTheSamePatches) {
             host().probe->patches(channels.range_px, channels.edges));
 }
 
-TEST_P(ImageParity, AFaultInAShaderIsNoticed) {
-  if (!onGlsl()) GTEST_SKIP() << "kernels have sabotage tests of their own";
+/// Kernels have sabotage tests of their own.
+class ShaderParity : public test::Parity {};
+INSTANTIATE_TEST_SUITE_P(,
+                         ShaderParity,
+                         testing::Values("glsl", "glsl_on_desktop_gl"),
+                         [](const auto& instance) { return std::string(instance.param); });
+
+TEST_P(ShaderParity, AFaultInAShaderIsNoticed) {
   const std::unique_ptr<StageSet> faulty = gles::makeGlesStages(context(), {{"RP_FAULT", "1"}});
   const Image<float> range = test::randomBlobs(64, 64, 2);
   const Image<float> edges = host().probe->edges(range, kThresholdPx);

@@ -13,7 +13,7 @@
 #include "sim/random.h"
 #include "sim/scanner.h"
 #include "support/model_parts.h"
-#include "support/pose_trials.h"
+#include "support/part_symmetries.h"
 
 namespace rangepose {
 namespace {

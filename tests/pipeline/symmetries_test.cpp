@@ -9,7 +9,7 @@
 
 #include "io/mesh_file.h"
 #include "support/oracle.h"
-#include "support/pose_trials.h"
+#include "support/part_symmetries.h"
 #include "support/range_scenes.h"
 
 namespace rangepose {

@@ -10,11 +10,12 @@
 #include <vector>
 
 #include "database/reference_database.h"
+#include "eval/pose_trial.h"
 #include "geometry/orientation_grid.h"
 #include "io/mesh_file.h"
 #include "pipeline/estimate.h"
 #include "stages/reference_host.h"
-#include "support/pose_trials.h"
+#include "support/part_symmetries.h"
 
 namespace rangepose {
 namespace {
@@ -29,7 +30,7 @@ struct Condition {
   double hidden = 0.0;
   int trials = 0;
   std::uint64_t first_seed = 0;  ///< 20000 and more were not used while options were chosen
-  int least_right = 0;
+  int least_right = 0;           ///< one less than found: another compiler may round otherwise
 };
 
 void PrintTo(const Condition& condition, std::ostream* out) {
@@ -51,7 +52,7 @@ ReferenceDatabase databaseOf(const std::string& part) {
 /// Vertex error of the best pose as a share of the diameter; -1 where there is no pose.
 double errorShare(const ReferenceDatabase& database,
                   const std::vector<Pose>& symmetries,
-                  const test::PoseTrial& trial,
+                  const PoseTrial& trial,
                   StageSet& stages) {
   const ReferenceObject& object = database.objects.front();
   EstimateOptions options;
@@ -75,8 +76,7 @@ TEST_P(SyntheticPoseTest, FindsThePart) {
   int right = 0;
   for (int i = 0; i < condition.trials; ++i) {
     const std::uint64_t seed = condition.first_seed + static_cast<std::uint64_t>(i);
-    const test::PoseTrial trial =
-        test::makePoseTrial(mesh, seed, condition.sensor, condition.hidden);
+    const PoseTrial trial = makePoseTrial(mesh, seed, condition.sensor, condition.hidden);
     if (condition.hidden > 0.0) {
       EXPECT_NEAR(trial.hidden, condition.hidden, 0.1) << "seed " << seed;
     }
@@ -105,21 +105,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Condition{"bolt", "none", 0.0, 50, 20050, 49},
                     Condition{"elbow", "structured-light", 0.0, 50, 20000, 49},
                     Condition{"elbow", "none", 0.0, 50, 20050, 49},
-                    Condition{"bracket", "structured-light", 0.0, 50, 20000, 47},
+                    Condition{"bracket", "structured-light", 0.0, 50, 20000, 48},
                     Condition{"bracket", "none", 0.0, 50, 20050, 47}),
     nameOf);
 
 INSTANTIATE_TEST_SUITE_P(
     TwoFifthsHidden,
     SyntheticPoseTest,
-    testing::Values(Condition{"t_pipe", "none", 0.4, 15, 20000, 12},
-                    Condition{"t_pipe", "structured-light", 0.4, 15, 20015, 12},
-                    Condition{"bolt", "none", 0.4, 15, 20000, 12},
-                    Condition{"bolt", "structured-light", 0.4, 15, 20015, 12},
-                    Condition{"elbow", "none", 0.4, 15, 20000, 12},
-                    Condition{"elbow", "structured-light", 0.4, 15, 20015, 12},
-                    Condition{"bracket", "none", 0.4, 15, 20000, 12},
-                    Condition{"bracket", "structured-light", 0.4, 15, 20015, 12}),
+    testing::Values(Condition{"t_pipe", "none", 0.4, 15, 20000, 13},
+                    Condition{"t_pipe", "structured-light", 0.4, 15, 20015, 13},
+                    Condition{"bolt", "none", 0.4, 15, 20000, 13},
+                    Condition{"bolt", "structured-light", 0.4, 15, 20015, 13},
+                    Condition{"elbow", "none", 0.4, 15, 20000, 14},
+                    Condition{"elbow", "structured-light", 0.4, 15, 20015, 13},
+                    Condition{"bracket", "none", 0.4, 15, 20000, 14},
+                    Condition{"bracket", "structured-light", 0.4, 15, 20015, 13}),
     nameOf);
 
 }  // namespace

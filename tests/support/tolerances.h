@@ -8,7 +8,7 @@ inline constexpr float kErrorSumRelative = 1.0e-4f;
 /// Sums of a handful of pixels [px]: where all of them cancel out, a relative bound says nothing.
 inline constexpr float kErrorSumPx = 1.0e-3f;
 /// Error of the best hypothesis of a search [relative]: one ulp in a value may turn a branch of the
-/// simplex, which then stops at another point within the 5 % spread that it stops at.
+/// simplex, which then stops at another point within the 2 % spread that it stops at.
 inline constexpr float kBestErrorRelative = 0.02f;
 /// Share of single hypotheses whose simplex may have taken another branch, see above.
 inline constexpr float kTurnedShare = 0.05f;

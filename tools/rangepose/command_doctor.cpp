@@ -183,11 +183,10 @@ void printPaths(const gles::ContextInfo* info, const CudaFindings& cuda) {
           : withRest(cuda.status.emulated ? "yes, emulated: for tests" : "yes", cuda.left_to_host));
   const bool gpu = info != nullptr && !info->software;
   row("--path auto",
-      fmt::format("takes {}; build renders by {}",
+      fmt::format("takes {}; build renders by host",
                   cuda.failure.empty() && !cuda.status.emulated ? "cuda"
                   : gpu                                         ? "glsl"
-                                                                : "host",
-                  info != nullptr ? "glsl" : "host"));
+                                                                : "host"));
 }
 
 int examine(const CudaArguments& arguments) {

@@ -12,13 +12,14 @@
 
 #include "core/error.h"
 #include "eval/ablation.h"
+#include "eval/pose_errors.h"
+#include "eval/pose_trial.h"
 #include "geometry/orientation_grid.h"
 #include "io/mesh_file.h"
 #include "pipeline/estimate.h"
 #include "pipeline/scene_window.h"
 #include "sim/sensor_model.h"
 #include "stages/reference_host.h"
-#include "support/pose_trials.h"
 
 namespace rangepose {
 namespace {
@@ -29,7 +30,7 @@ constexpr double kRightFine = 0.02;
 struct Part {
   std::string name;
   ReferenceDatabase database;
-  std::vector<Pose> symmetries;
+  ErrorModel errors;
 };
 
 struct TrialOptions {
@@ -54,13 +55,12 @@ std::vector<Part> loadParts(const TrialOptions& options) {
   for (const std::string name : {"t_pipe", "bolt", "elbow", "bracket"}) {
     const Mesh mesh = readMesh(options.models + "/" + name + ".ply", LengthUnit::kMillimetre);
     const ChannelOptions channels = channelOptionsFor(kSize);
-    Part part;
-    part.name = name;
+    const Symmetries symmetries = findSymmetries(mesh);
+    Part part{name, {}, ErrorModel(mesh, symmetries)};
     part.database.objects.push_back(
         describeObject(mesh, 1, kSize, uniformRotations(options.views), channels));
     host::renderReferences(part.database.objects.front(), channels, {});
-    setSymmetries(part.database.objects.front(), findSymmetries(mesh));
-    part.symmetries = test::symmetriesOf(name, mesh);
+    setSymmetries(part.database.objects.front(), symmetries);
     parts.push_back(std::move(part));
   }
   return parts;
@@ -72,8 +72,7 @@ double roughError(const ObjectTrace& trace, const Part& part, const Pose& truth)
   if (best == nullptr) return std::numeric_limits<double>::infinity();
   const ReferenceObject& object = part.database.objects.front();
   const OrthoCamera& window = trace.windows[static_cast<std::size_t>(best->window)].camera;
-  return test::vertexError(object.mesh, part.symmetries, poseOf(*best, object, window), truth) /
-         object.diameter_mm;
+  return vertexErrorMm(part.errors, poseOf(*best, object, window), truth) / object.diameter_mm;
 }
 
 Result runTrials(const Part& part,
@@ -83,17 +82,15 @@ Result runTrials(const Part& part,
   Result result;
   const ReferenceObject& object = part.database.objects.front();
   for (int i = 0; i < options.trials; ++i) {
-    const test::PoseTrial trial = test::makePoseTrial(
+    const PoseTrial trial = makePoseTrial(
         object.mesh, options.seed + static_cast<std::uint64_t>(i), options.sensor, options.hidden);
     EstimateTrace trace;
     const Estimate estimate =
         estimatePoses(trial.image, std::nullopt, part.database, estimate_options, stages, &trace);
     double error = std::numeric_limits<double>::infinity();
     if (!estimate.poses.empty()) {
-      error =
-          test::vertexError(
-              object.mesh, part.symmetries, estimate.poses.front().pose, trial.camera_from_object) /
-          object.diameter_mm;
+      error = vertexErrorMm(part.errors, estimate.poses.front().pose, trial.camera_from_object) /
+              object.diameter_mm;
     }
     ++result.trials;
     result.fine += error < kRightFine ? 1 : 0;

@@ -9,7 +9,7 @@
 #include "core/camera.h"
 #include "geometry/mesh.h"
 
-namespace rangepose::test {
+namespace rangepose {
 
 struct PoseTrial {
   DepthImage image;
@@ -27,15 +27,4 @@ PoseTrial makePoseTrial(const Mesh& mesh,
                         const std::string& sensor,
                         double hidden);
 
-/// Rotations about the object's origin frame that leave a part of models/ the same, the identity
-/// first. Names as in models/: t_pipe, bolt, elbow, bracket.
-std::vector<Pose> symmetriesOf(const std::string& part, const Mesh& mesh);
-
-/// Mean distance of the vertices in two poses, the smallest over the symmetries [mm] (the paper's
-/// vertex error).
-double vertexError(const Mesh& mesh,
-                   const std::vector<Pose>& symmetries,
-                   const Pose& estimate,
-                   const Pose& truth);
-
-}  // namespace rangepose::test
+}  // namespace rangepose

@@ -1,18 +1,10 @@
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include "core/error.h"
-#include "stages/scene_channels.h"
 #include "stages/search.h"
 
-namespace rangepose {
+#include <cmath>
 
-void ChannelOptions::check() const {
-  RP_CHECK(edge_fraction > 0.0f && edge_fraction < 1.0f, "edge_fraction must lie in (0, 1)");
-  RP_CHECK(image_width_px >= 8 && image_width_px <= 256, "image_width_px must lie in 8..256");
-  RP_CHECK(edt_passes >= 1 && edt_passes <= 255, "edt_passes must lie in 1..255");
-}
+#include "core/error.h"
+
+namespace rangepose {
 
 void SimplexOptions::check() const {
   RP_CHECK(step_px > 0.0f, "simplex step_px must be positive");
