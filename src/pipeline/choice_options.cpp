@@ -15,6 +15,8 @@ void ChoiceOptions::check() const {
            "choice: faint, listed, found and sure must rise");
   RP_CHECK(tie >= 0.0 && close > 0.0 && slack >= 0.0 && hidden_from >= 0.0,
            "choice: tie, close, slack and hidden_from must not be negative");
+  RP_CHECK(free >= 0.0 && free_turns >= 2,
+           "choice: free must not be negative and free_turns at least 2");
 }
 
 }  // namespace rangepose

@@ -12,11 +12,15 @@ struct ChoiceOptions {
   double listed = 0.02;  ///< less sure poses cannot be chosen [confidence]
   double turned = 0.2;   ///< from here on turned copies of a pose are tried [confidence]
   double turned_again = 0.25;  ///< and from here on also where that was done for a surer rival
-  double found = 0.5;      ///< from here on a part counts as found, and hides others [confidence]
-  double sure = 0.75;      ///< from here on its pixels are not searched again [confidence]
-  double settled = 0.3;    ///< from here on chosen poses are brought to rest [confidence]
-  double tie = 3.0;        ///< rivals no farther apart are aligned more closely [log odds]
-  double close = 2.0;      ///< model and data this near are as near as they can be [sigmas]
+  double found = 0.5;    ///< from here on a part counts as found, and hides others [confidence]
+  double sure = 0.75;    ///< from here on its pixels are not searched again [confidence]
+  double settled = 0.3;  ///< from here on chosen poses are brought to rest [confidence]
+  double free = 0.5;    ///< a turn by a tenth of the diameter is free where it changes what is seen
+                        ///< by less [tolerances]
+  int free_turns = 24;  ///< of a full turn, which are tried: steps of 15 degrees, so that one is
+                        ///< nearly right
+  double tie = 3.0;     ///< rivals no farther apart are aligned more closely [log odds]
+  double close = 2.0;   ///< model and data this near are as near as they can be [sigmas]
   double at_rest = 0.005;  ///< what aligned poses are off, and more [diameters]
   double slack = 0.5;  ///< a pose may reach so far into the found part that hides it [tolerances]
   double hidden_from = 0.5;  ///< a pose that explains less is not hidden by others: what is left of

@@ -130,6 +130,17 @@ class Estimator {
     return copies;
   }
 
+  /// Adds poses that what is seen hardly tells from the chosen ones, as it leaves these free to
+  /// turn: the search may have come to rest at any of them.
+  void turnFree(Selection& selection) {
+    const ScopedTimer timer(result_.times, "free turns");
+    std::vector<Candidate> turns = selection.freeTurnsOfChosen();
+    if (turns.empty()) return;
+    checkFreeTurns(turns, database_, wholeScene());
+    std::erase_if(turns, [&](const Candidate& one) { return selection.knows(one); });
+    selection.add(turns);
+  }
+
   /// Brings the chosen poses to rest, after a closer look at those that are as likely as their
   /// rivals, or nearly, and at these.
   void settleChosen(Selection& selection) {
@@ -368,6 +379,7 @@ Estimate estimatePoses(const DepthImage& measured,
     selection.takeOut(rest);
     fruitless = found > before ? 0 : fruitless + 1;
   }
+  estimator.turnFree(selection);
   estimator.settleChosen(selection);
   const std::vector<Candidate> chosen = selection.choose();
   if (trace != nullptr) {

@@ -306,6 +306,14 @@ void settle(std::vector<Candidate>& candidates,
   });
 }
 
+void checkFreeTurns(std::vector<Candidate>& candidates,
+                    const ReferenceDatabase& database,
+                    const RefineScene& scene) {
+  checkAll(candidates, database, scene);
+  std::erase_if(candidates, [&](const Candidate& one) { return one.rank < scene.align.hopeless; });
+  refineTies(candidates, database, scene);
+}
+
 void checkTwins(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene) {

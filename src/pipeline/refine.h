@@ -92,6 +92,12 @@ void refineTies(std::vector<Candidate>& candidates,
                 const ReferenceDatabase& database,
                 const RefineScene& scene);
 
+/// Checks turned copies of poses that are free to turn, drops those that are beyond hope, and
+/// aligns the others as refineTies() does: what tells them apart is little.
+void checkFreeTurns(std::vector<Candidate>& candidates,
+                    const ReferenceDatabase& database,
+                    const RefineScene& scene);
+
 /// Checks twins of settled poses (geometry/twins.h), drops those that are beyond hope, and brings
 /// the others to rest as long as they stay where they are: where the image leaves them some
 /// freedom, each would come to rest elsewhere, by more than what tells one from the other.

@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "pipeline/candidates.h"
 #include "pipeline/explained_pixels.h"
+#include "pipeline/free_turn.h"
 #include "pipeline/turned.h"
 
 namespace rangepose {
@@ -266,6 +267,30 @@ std::vector<Candidate> Selection::turnedCopies() {
   for (const std::vector<Candidate>& own : copies_of)
     copies.insert(copies.end(), own.begin(), own.end());
   return copies;
+}
+
+std::vector<Candidate> Selection::freeTurnsOfChosen() const {
+  std::vector<std::vector<Candidate>> turns_of(chosen_.size());
+  parallelForEach(chosen_.size(), 1, [&](std::size_t i) {
+    const Entry& entry = *chosen_[i];
+    if (!isSettled(entry)) return;
+    const ReferenceObject& object = objectOf(entry);
+    const SurfaceWindow window = windowOf(entry);
+    const double tolerance_mm = toleranceFor(object, noise_mm_);
+    const std::optional<FreeTurn> turn =
+        freestTurn(host::renderSurface(object.mesh, depth_.camera, entry.alone.pose, window),
+                   window,
+                   depth_,
+                   object,
+                   entry.alone.pose,
+                   tolerance_mm);
+    if (turn && turn->change_mm <= options_.free * tolerance_mm)
+      turns_of[i] = turnedAbout(*turn, entry.alone, options_.free_turns);
+  });
+  std::vector<Candidate> turns;
+  for (const std::vector<Candidate>& own : turns_of)
+    turns.insert(turns.end(), own.begin(), own.end());
+  return turns;
 }
 
 std::vector<Candidate> Selection::takeTies() {

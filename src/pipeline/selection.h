@@ -40,6 +40,9 @@ class Selection {
   /// Copies (see turned.h) of the poses that are not hopeless and were not turned before, to be
   /// aligned and checked; those of a pose have a `window` of their own.
   std::vector<Candidate> turnedCopies();
+  /// Chosen poses turned about the line about which what is seen of them is free to turn
+  /// (free_turn.h): to be checked and added.
+  std::vector<Candidate> freeTurnsOfChosen() const;
   /// Takes the chosen poses out for which another one of the same surface is as likely, or nearly,
   /// and these as well, each judged by itself: to be aligned more closely and added again.
   std::vector<Candidate> takeTies();
